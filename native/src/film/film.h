@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The picture being made: weighted sums of samples, a tile at a time, and the finished values.
+#pragma once
+
+#include <vector>
+
+#include "film/channels.h"
+#include "math/color.h"
+#include "math/vec.h"
+
+namespace basicrt {
+
+// What the integrator says of one camera sample.
+struct PixelSample {
+  Color radiance{0.0f};
+  float alpha = 1;
+  bool has_hit = false;  // the passes below mean something
+  float depth = 0;       // along the camera's axis, metres
+  Vec3f normal;          // world space, unit length, towards the camera
+};
+
+// A rectangle of pixels in film coordinates: x right, y up, (0, 0) the lower left pixel.
+struct PixelRect {
+  int x = 0, y = 0, width = 0, height = 0;
+  constexpr bool operator==(const PixelRect&) const = default;
+};
+
+// Finished values of a rectangle: for each chosen pass, in the order of the table, height x width x channels floats,
+// row 0 at the bottom.
+struct Tile {
+  PixelRect rect;
+  PassLayout layout;
+  std::vector<float> values;
+
+  // Where a pass begins in `values`.
+  [[nodiscard]] std::size_t pass_begin(Pass pass) const {
+    return static_cast<std::size_t>(layout.offset(pass)) * rect.width * rect.height;
+  }
+};
+
+// The sums of one rectangle's samples. Each pixel's samples must be added in order: float sums depend on it.
+class TileAccumulator {
+ public:
+  TileAccumulator(PixelRect rect, PassLayout layout);
+
+  // `x`, `y` within the rectangle.
+  void add(int x, int y, const PixelSample& sample, float weight);
+  [[nodiscard]] Tile finish() const;
+
+ private:
+  struct Pixel {
+    float weight = 0, hit_weight = 0, alpha = 0;
+    Color radiance{0.0f};
+    bool has_hit = false;
+    float depth = 0;
+    Vec3f normal{0.0f};
+  };
+  PixelRect rect_;
+  PassLayout layout_;
+  std::vector<Pixel> pixels_;
+};
+
+// A whole picture put together from tiles.
+class Film {
+ public:
+  Film(int width, int height, PassLayout layout);
+
+  void write(const Tile& tile);
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] const PassLayout& layout() const { return layout_; }
+  // height x width x channels, row 0 at the bottom.
+  [[nodiscard]] const std::vector<float>& values(Pass pass) const { return values_[static_cast<std::size_t>(pass)]; }
+
+ private:
+  int width_, height_;
+  PassLayout layout_;
+  std::vector<std::vector<float>> values_;
+};
+
+}  // namespace basicrt

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an instance can place: a closed set of kinds of geometry.
+#pragma once
+
+#include <string_view>
+#include <variant>
+
+#include "geometry/mesh.h"
+
+namespace basicrt {
+
+// A sphere, exact: neither tessellated nor approximated. u is longitude, v latitude, both in [0, 1], poles on z.
+struct Sphere {
+  Vec3f center;
+  float radius = 1;
+};
+
+using Shape = std::variant<Mesh, Sphere>;
+
+[[nodiscard]] Bounds3f bounds(const Shape& shape);
+void validate(const Shape& shape, std::string_view item);
+
+}  // namespace basicrt

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All that shading needs to know of a hit.
+#pragma once
+
+#include <cstdint>
+
+#include "geometry/hit.h"
+#include "geometry/shape.h"
+#include "math/ray.h"
+#include "math/transform.h"
+
+namespace basicrt {
+
+// World space. Normals keep the side of the surface (they point out of the front face), whatever side was hit.
+struct SurfacePoint {
+  Vec3f position;
+  Vec3f position_error;    // the true point is within position +- position_error
+  Vec3f geometric_normal;  // unit length; by the winding p0 p1 p2, or by the orientation of the corner normals
+  Vec3f shading_normal;    // unit length, on the same side as geometric_normal
+  Vec2f uv;
+  Vec3f dpdu, dpdv;  // change of position with uv
+  Vec3f dndu, dndv;  // change of the shading normal with uv
+  Vec3f dpdx, dpdy;  // change of position per pixel, by the ray's differentials; zero without them
+  Vec2f duvdx, duvdy;
+  std::uint32_t instance = 0, primitive = 0;
+  std::uint32_t material_slot = 0;
+  bool is_backfacing = false;  // the ray came from the side that geometric_normal points away from
+};
+
+// The hit solved again from the vertices in double precision.
+[[nodiscard]] SurfacePoint make_surface_point(const Shape& shape, const TransformD& object_to_world,
+                                              const TransformD& world_to_object, const Ray& ray, const Hit& hit,
+                                              const RayDifferentials* differentials = nullptr);
+
+// An origin for a ray that leaves the surface towards `direction`: moved off it by the error bound, no more.
+[[nodiscard]] Vec3f offset_origin(const SurfacePoint& point, Vec3f direction);
+
+}  // namespace basicrt

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The lamps: described in radiometric units, sampled towards a point and from themselves. Lamps do not block rays.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <variant>
+
+#include "base/describe.h"
+#include "math/color.h"
+#include "math/ray.h"
+#include "math/transform.h"
+
+namespace basicrt {
+
+// A sphere of the given radius, or a point where that is 0. With soft falloff a disc that faces the lit point stands
+// in for the sphere, as Blender's lamps have it by default.
+struct PointLight {
+  Vec3f position;
+  Color intensity{1.0f};  // W / sr; a sphere has the radiance intensity / (pi radius^2)
+  float radius = 0;
+  bool is_soft = false;
+  static constexpr std::string_view kind = "point";
+  static constexpr auto fields() {
+    return std::tuple{field("position", &PointLight::position, "world space, metres"),
+                      field("intensity", &PointLight::intensity, "W / sr", at_least(0)),
+                      field("radius", &PointLight::radius, "metres", at_least(0)),
+                      field("soft", &PointLight::is_soft, "a disc that faces the lit point instead of a sphere")};
+  }
+};
+
+struct SpotLight {
+  Transform to_world;  // shines along local -z; the cone is measured in local space
+  Color intensity{1.0f};
+  float radius = 0;
+  bool is_soft = false;
+  float angle = 0.785398f;  // full angle of the cone, radians
+  float blend = 0.15f;      // share of the cone in which it fades
+  static constexpr std::string_view kind = "spot";
+  static constexpr auto fields() {
+    return std::tuple{field("transform", &SpotLight::to_world, "local to world; shines along local -z"),
+                      field("intensity", &SpotLight::intensity, "W / sr on the axis", at_least(0)),
+                      field("radius", &SpotLight::radius, "metres", at_least(0)),
+                      field("soft", &SpotLight::is_soft, "a disc that faces the lit point instead of a sphere"),
+                      field("angle", &SpotLight::angle, "full angle of the cone, radians", above(0)),
+                      field("blend", &SpotLight::blend, "share of the cone in which it fades", within(0, 1))};
+  }
+};
+
+struct SunLight {
+  Vec3f direction{0, 0, -1};  // in which the light travels
+  Color irradiance{1.0f};     // W / m^2 on a surface that faces it
+  float angle = 0;            // full angle of the disc, radians
+  static constexpr std::string_view kind = "sun";
+  static constexpr auto fields() {
+    return std::tuple{field("direction", &SunLight::direction, "in which the light travels, world space"),
+                      field("irradiance", &SunLight::irradiance, "W / m^2 on a surface that faces it", at_least(0)),
+                      field("angle", &SunLight::angle, "full angle of the disc, radians", within(0, 3.141593))};
+  }
+};
+
+// Local [-1/2, 1/2]^2 in the plane z = 0, or the ellipse in it; shines along local -z, one-sided.
+struct AreaLight {
+  Transform to_world;
+  Color radiance{1.0f};
+  bool is_ellipse = false;
+  float spread = 3.141593f;  // full angle, radians; pi shines everywhere alike
+  static constexpr std::string_view kind = "area";
+  static constexpr auto fields() {
+    return std::tuple{field("transform", &AreaLight::to_world, "local to world; a unit square or disc at z = 0"),
+                      field("radiance", &AreaLight::radiance, "W / (m^2 sr) with full spread", at_least(0)),
+                      field("ellipse", &AreaLight::is_ellipse, "an ellipse instead of a rectangle"),
+                      field("spread", &AreaLight::spread, "full angle, radians", within(0, 3.141593))};
+  }
+};
+
+using Light = std::variant<PointLight, SpotLight, SunLight, AreaLight>;
+
+// Light that arrives at a point from one direction.
+struct LightSample {
+  Vec3f wi;                  // towards the light, unit length
+  float distance = infinity; // to the light, where a shadow ray ends
+  Color radiance{0.0f};      // along -wi; for a delta light, times what makes radiance / pdf the irradiance
+  float pdf = 0;             // over solid angle; 1 for a delta light
+  bool is_delta = false;     // no other ray can find it: no multiple importance sampling
+};
+
+// Light that a ray runs into.
+struct LightHit {
+  float t = infinity;
+  Color radiance{0.0f};
+  float pdf = 0;  // that sample_light() gives this direction, over solid angle
+};
+
+// A path that starts at the light.
+struct EmissionSample {
+  Ray ray;
+  Vec3f normal;           // of the light's surface at the origin; the direction for a point or a sun
+  Color weight;           // radiance * cosine / (pdf_position * pdf_direction)
+  float pdf_position = 1;   // per area (1 for a point)
+  float pdf_direction = 1;  // over solid angle (1 for a sun without angle)
+};
+
+[[nodiscard]] std::optional<LightSample> sample_light(const Light& light, Vec3f position, Vec2f u);
+[[nodiscard]] std::optional<LightHit> intersect_light(const Light& light, const Ray& ray);
+[[nodiscard]] float light_pdf(const Light& light, Vec3f position, Vec3f wi);
+// `scene_center` and `scene_radius` say where a sun's rays must pass.
+[[nodiscard]] std::optional<EmissionSample> sample_emission(const Light& light, Vec2f u_position, Vec2f u_direction,
+                                                            Vec3f scene_center, float scene_radius);
+// The two densities of sample_emission for a ray that leaves the light at `position` along `direction`.
+struct EmissionPdf {
+  float position = 0, direction = 0;
+};
+[[nodiscard]] EmissionPdf emission_pdf(const Light& light, Vec3f position, Vec3f direction, float scene_radius);
+// Watts, all directions together: what lights are chosen by.
+[[nodiscard]] float power_estimate(const Light& light, float scene_radius);
+
+}  // namespace basicrt

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A ray and its differentials.
+#pragma once
+
+#include <cstdint>
+
+#include "math/constants.h"
+#include "math/vec.h"
+
+namespace basicrt {
+
+// Which rays see an object: one bit per kind of ray, as in Blender's Ray Visibility.
+enum RayKind : std::uint32_t {
+  ray_camera = 1u << 0,
+  ray_diffuse = 1u << 1,
+  ray_glossy = 1u << 2,
+  ray_transmission = 1u << 3,
+  ray_volume = 1u << 4,
+  ray_shadow = 1u << 5,
+  ray_all = ~0u,
+};
+
+// Points origin + t * direction for t in [t_min, t_max]. The direction need not have unit length.
+struct Ray {
+  Vec3f origin;
+  float t_min = 0;
+  Vec3f direction;
+  float t_max = infinity;
+  std::uint32_t kinds = ray_all;  // an instance is seen when its visibility has a bit of these
+  float time = 0;                 // within the shutter, 0 opens and 1 closes
+
+  [[nodiscard]] Vec3f at(float t) const { return origin + direction * t; }
+};
+
+// The rays one pixel to the right and one pixel up: what texture filtering and texture coordinates' derivatives need.
+struct RayDifferentials {
+  Vec3f origin_dx, origin_dy;        // change of the origin per pixel
+  Vec3f direction_dx, direction_dy;  // change of the direction per pixel
+};
+
+}  // namespace basicrt

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The description of a scene: plain structs in tables, with typed indices and no pointers.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/report.h"
+#include "base/table.h"
+#include "camera/camera.h"
+#include "geometry/shape.h"
+#include "light/light_set.h"
+#include "scene/settings.h"
+#include "shading/material.h"
+
+namespace basicrt {
+
+// A shape placed in the world with materials for its slots. A slot without a material (and an instance without any)
+// has the default: a diffuse grey of 0.8, both sides.
+struct Instance {
+  std::string name;
+  Id<Shape> shape;
+  Transform object_to_world;
+  std::vector<Id<Material>> materials;
+  std::uint32_t visibility = ray_all;  // RayKind bits
+};
+
+struct Scene {
+  Table<Shape> shapes;
+  Table<Texture> textures;
+  Table<Material> materials;
+  Table<Instance> instances;
+  Table<Light> lights;
+  Environment environment;
+  std::optional<Camera> camera;
+  RenderSettings settings;
+};
+
+// Throws SceneError naming the first item that can't be rendered, the rule and the value. After it nothing throws.
+void validate(const Scene& scene);
+
+}  // namespace basicrt

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a picture is made: nothing here says what it is of.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+
+#include "base/describe.h"
+#include "bvh/bvh.h"
+#include "film/channels.h"
+#include "film/film.h"
+#include "math/color.h"
+#include "sampling/filter.h"
+
+namespace basicrt {
+
+enum class IntegratorKind : std::uint8_t { path, intersection_test };
+template <>
+inline constexpr std::array enum_names<IntegratorKind> = std::to_array<std::string_view>({"path", "intersection_test"});
+
+template <>
+inline constexpr std::array enum_names<BvhBuilder> = std::to_array<std::string_view>({"median", "binned_sah"});
+
+struct RenderSettings {
+  int width = 512, height = 512;
+  // The rectangle to render, in pixels, (0, 0) at the lower left; of no size: all of it. Tiles' coordinates are the
+  // whole picture's.
+  int border_x = 0, border_y = 0, border_width = 0, border_height = 0;
+  int samples = 64;
+  std::int64_t seed = 0;
+  FilterSettings filter;
+  PassLayout passes;
+  bool is_film_transparent = false;
+  float exposure = 1;  // multiplies radiance
+
+  IntegratorKind integrator = IntegratorKind::path;
+  // Path: scatterings of each kind after which a path ends, counted as Blender does.
+  int max_bounces = 12, diffuse_bounces = 4, glossy_bounces = 4, transmission_bounces = 12, transparent_bounces = 8;
+  float roulette_threshold = 1;  // paths with less throughput than this are ended by chance
+  // Intersection test: the assignment's integrator with one point light.
+  Vec3f point_light_position{0, 0, 0};
+  Color point_light_flux{1.0f};
+  int max_depth = 16;
+
+  BvhBuilder bvh_builder = BvhBuilder::binned_sah;
+
+  static constexpr auto fields() {
+    using S = RenderSettings;
+    return std::tuple{
+        field("width", &S::width, "pixels", within(1, 65536)),
+        field("height", &S::height, "pixels", within(1, 65536)),
+        field("border_x", &S::border_x, "left edge of the rectangle to render, pixels", at_least(0)),
+        field("border_y", &S::border_y, "lower edge of the rectangle to render, pixels", at_least(0)),
+        field("border_width", &S::border_width, "pixels; 0 is the whole width", at_least(0)),
+        field("border_height", &S::border_height, "pixels; 0 is the whole height", at_least(0)),
+        field("samples", &S::samples, "paths for each pixel", within(1, 1 << 24)),
+        field("seed", &S::seed, "another seed, other noise"),
+        field("film_transparent", &S::is_film_transparent, "the background has alpha 0"),
+        field("exposure", &S::exposure, "multiplies radiance", at_least(0)),
+        field("integrator", &S::integrator, "how light is computed"),
+        field("max_bounces", &S::max_bounces, "scatterings after which a path ends", within(0, 1024)),
+        field("diffuse_bounces", &S::diffuse_bounces, "diffuse reflections after which a path ends", within(0, 1024)),
+        field("glossy_bounces", &S::glossy_bounces, "glossy reflections after which a path ends", within(0, 1024)),
+        field("transmission_bounces", &S::transmission_bounces, "transmissions after which a path ends", within(0, 1024)),
+        field("transparent_bounces", &S::transparent_bounces, "transparent surfaces after which a ray ends", within(0, 1024)),
+        field("rr_threshold", &S::roulette_threshold, "throughput under which Russian roulette begins", within(0, 1)),
+        field("point_light_position", &S::point_light_position, "intersection_test: the light, world space"),
+        field("point_light_flux", &S::point_light_flux, "intersection_test: watts", at_least(0)),
+        field("max_depth", &S::max_depth, "intersection_test: surfaces that a path may meet", within(1, 1024)),
+        field("bvh_builder", &S::bvh_builder, "which builder makes the trees")};
+  }
+};
+
+}  // namespace basicrt
