@@ -34,13 +34,13 @@ constexpr Range within(double minimum, double maximum) { return {.minimum = mini
 template <class Struct, class Value>
 struct Field {
   std::string_view name;
-  Value Struct::*member;
+  Value Struct::* member;
   std::string_view doc;
   Range range;
 };
 
 template <class Struct, class Value>
-constexpr Field<Struct, Value> field(std::string_view name, Value Struct::*member, std::string_view doc,
+constexpr Field<Struct, Value> field(std::string_view name, Value Struct::* member, std::string_view doc,
                                      Range range = {}) {
   return {name, member, doc, range};
 }

@@ -19,9 +19,9 @@ namespace basicrt {
 enum class ScatterKind : std::uint8_t { diffuse, glossy, transmission, transparent };
 
 struct BsdfSample {
-  Vec3f wi;      // world space
-  Color weight;  // value times cosine over pdf
-  float pdf = 0; // of the whole Bsdf for wi, over solid angle; where is_delta it is no density and must not be used
+  Vec3f wi;       // world space
+  Color weight;   // value times cosine over pdf
+  float pdf = 0;  // of the whole Bsdf for wi, over solid angle; where is_delta it is no density and must not be used
   bool is_delta = false;
   ScatterKind kind = ScatterKind::diffuse;
 };
@@ -38,7 +38,8 @@ class Bsdf {
 
   Bsdf() = default;
   // `shading_normal` and `geometric_normal` keep the surface's own side, as in SurfacePoint.
-  Bsdf(const Frame& shading_frame, Vec3f geometric_normal) : frame_(shading_frame), geometric_normal_(geometric_normal) {}
+  Bsdf(const Frame& shading_frame, Vec3f geometric_normal)
+      : frame_(shading_frame), geometric_normal_(geometric_normal) {}
 
   // Adds a lobe with a colour weight. Lobes past max_lobes are merged into none: the compiler of materials sees to
   // it that there are never more (validate() refuses such a material).

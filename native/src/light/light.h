@@ -79,11 +79,11 @@ using Light = std::variant<PointLight, SpotLight, SunLight, AreaLight>;
 
 // Light that arrives at a point from one direction.
 struct LightSample {
-  Vec3f wi;                  // towards the light, unit length
-  float distance = infinity; // to the light, where a shadow ray ends
-  Color radiance{0.0f};      // along -wi; for a delta light, times what makes radiance / pdf the irradiance
-  float pdf = 0;             // over solid angle; 1 for a delta light
-  bool is_delta = false;     // no other ray can find it: no multiple importance sampling
+  Vec3f wi;                   // towards the light, unit length
+  float distance = infinity;  // to the light, where a shadow ray ends
+  Color radiance{0.0f};       // along -wi; for a delta light, times what makes radiance / pdf the irradiance
+  float pdf = 0;              // over solid angle; 1 for a delta light
+  bool is_delta = false;      // no other ray can find it: no multiple importance sampling
 };
 
 // Light that a ray runs into.
@@ -96,8 +96,8 @@ struct LightHit {
 // A path that starts at the light.
 struct EmissionSample {
   Ray ray;
-  Vec3f normal;           // of the light's surface at the origin; the direction for a point or a sun
-  Color weight;           // radiance * cosine / (pdf_position * pdf_direction)
+  Vec3f normal;             // of the light's surface at the origin; the direction for a point or a sun
+  Color weight;             // radiance * cosine / (pdf_position * pdf_direction)
   float pdf_position = 1;   // per area (1 for a point)
   float pdf_direction = 1;  // over solid angle (1 for a sun without angle)
 };

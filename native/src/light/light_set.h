@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "light/light.h"
 #include "geometry/shape.h"
 #include "geometry/surface_point.h"
+#include "light/light.h"
 #include "math/bounds.h"
 
 namespace basicrt {

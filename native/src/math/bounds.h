@@ -14,9 +14,7 @@ struct Bounds3 {
   Vec3<T> lower = Vec3<T>(std::numeric_limits<T>::infinity());
   Vec3<T> upper = Vec3<T>(-std::numeric_limits<T>::infinity());
 
-  [[nodiscard]] constexpr bool is_empty() const {
-    return lower.x > upper.x || lower.y > upper.y || lower.z > upper.z;
-  }
+  [[nodiscard]] constexpr bool is_empty() const { return lower.x > upper.x || lower.y > upper.y || lower.z > upper.z; }
   [[nodiscard]] constexpr Vec3<T> extent() const { return upper - lower; }
   [[nodiscard]] constexpr Vec3<T> center() const { return lower * T(0.5) + upper * T(0.5); }
   [[nodiscard]] constexpr T half_area() const {

@@ -64,7 +64,8 @@ constexpr Affine<T> inverse(const Affine<T>& m) {
   const Vec3<T> a = m.column(0), b = m.column(1), c = m.column(2), t = m.column(3);
   const T scale = T(1) / m.determinant();
   const Vec3<T> r0 = cross(b, c) * scale, r1 = cross(c, a) * scale, r2 = cross(a, b) * scale;
-  return Affine<T>({{{r0.x, r0.y, r0.z, -dot(r0, t)}, {r1.x, r1.y, r1.z, -dot(r1, t)}, {r2.x, r2.y, r2.z, -dot(r2, t)}}});
+  return Affine<T>(
+      {{{r0.x, r0.y, r0.z, -dot(r0, t)}, {r1.x, r1.y, r1.z, -dot(r1, t)}, {r2.x, r2.y, r2.z, -dot(r2, t)}}});
 }
 
 // The box of a transformed box.

@@ -33,8 +33,7 @@ struct Vec3 {
   constexpr explicit Vec3(T s) : x(s), y(s), z(s) {}
   constexpr Vec3(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
   template <class U>
-  constexpr explicit Vec3(const Vec3<U>& v)
-      : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
+  constexpr explicit Vec3(const Vec3<U>& v) : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
 
   constexpr T operator[](std::size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   constexpr T& operator[](std::size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }

@@ -45,8 +45,9 @@ struct GlossyShader {
   float roughness = 0.5f;
   static constexpr std::string_view kind = "glossy";
   static constexpr auto fields() {
-    return std::tuple{field("color", &GlossyShader::color, "reflectance", within(0, 1)),
-                      field("roughness", &GlossyShader::roughness, "the microfacets' alpha is its square", within(0, 1))};
+    return std::tuple{
+        field("color", &GlossyShader::color, "reflectance", within(0, 1)),
+        field("roughness", &GlossyShader::roughness, "the microfacets' alpha is its square", within(0, 1))};
   }
 };
 
@@ -75,9 +76,10 @@ struct RefractionShader {
   float roughness = 0;
   static constexpr std::string_view kind = "refraction";
   static constexpr auto fields() {
-    return std::tuple{field("color", &RefractionShader::color, "tint of the refracted light", within(0, 1)),
-                      field("eta", &RefractionShader::ior, "refractive index inside over outside", above(0)),
-                      field("roughness", &RefractionShader::roughness, "the microfacets' alpha is its square", within(0, 1))};
+    return std::tuple{
+        field("color", &RefractionShader::color, "tint of the refracted light", within(0, 1)),
+        field("eta", &RefractionShader::ior, "refractive index inside over outside", above(0)),
+        field("roughness", &RefractionShader::roughness, "the microfacets' alpha is its square", within(0, 1))};
   }
 };
 
@@ -88,10 +90,11 @@ struct GlassShader {
   float roughness = 0;
   static constexpr std::string_view kind = "glass";
   static constexpr auto fields() {
-    return std::tuple{field("R", &GlassShader::reflect_color, "tint of the reflected light", within(0, 1)),
-                      field("T", &GlassShader::transmit_color, "tint of the refracted light", within(0, 1)),
-                      field("eta", &GlassShader::ior, "refractive index inside over outside", above(0)),
-                      field("roughness", &GlassShader::roughness, "the microfacets' alpha is its square", within(0, 1))};
+    return std::tuple{
+        field("R", &GlassShader::reflect_color, "tint of the reflected light", within(0, 1)),
+        field("T", &GlassShader::transmit_color, "tint of the refracted light", within(0, 1)),
+        field("eta", &GlassShader::ior, "refractive index inside over outside", above(0)),
+        field("roughness", &GlassShader::roughness, "the microfacets' alpha is its square", within(0, 1))};
   }
 };
 
@@ -122,13 +125,14 @@ struct PrincipledShader {
   static constexpr std::string_view kind = "principled";
   static constexpr auto fields() {
     return std::tuple{
-        field("base_color", &PrincipledShader::base_color, "reflectance of diffuse and metal, tint of glass", within(0, 1)),
+        field("base_color", &PrincipledShader::base_color, "reflectance of diffuse and metal, tint of glass",
+              within(0, 1)),
         field("metallic", &PrincipledShader::metallic, "0 a dielectric, 1 a metal", within(0, 1)),
         field("roughness", &PrincipledShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
         field("ior", &PrincipledShader::ior, "refractive index", at_least(1)),
         field("transmission", &PrincipledShader::transmission, "how much of the dielectric is glass", within(0, 1)),
-        field("specular_ior_level", &PrincipledShader::specular_ior_level, "0.5 leaves the index's reflectance as it is",
-              within(0, 1)),
+        field("specular_ior_level", &PrincipledShader::specular_ior_level,
+              "0.5 leaves the index's reflectance as it is", within(0, 1)),
         field("emission", &PrincipledShader::emission, "W / (m^2 sr), both sides", at_least(0)),
         field("alpha", &PrincipledShader::alpha, "opacity", within(0, 1))};
   }

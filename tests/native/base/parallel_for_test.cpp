@@ -20,7 +20,11 @@ TEST(ParallelFor, calls_each_index_once_on_any_number_of_threads) {
 }
 
 TEST(ParallelFor, an_exception_reaches_the_caller) {
-  EXPECT_THROW(parallel_for(100, 4, [](std::size_t i) { if (i == 57) throw std::runtime_error("57"); }), std::runtime_error);
+  EXPECT_THROW(parallel_for(100, 4,
+                            [](std::size_t i) {
+                              if (i == 57) throw std::runtime_error("57");
+                            }),
+               std::runtime_error);
 }
 
 TEST(ParallelFor, no_work_is_no_call) {
