@@ -29,6 +29,7 @@ from project import (
     digest,
     files_under,
     is_fresh,
+    output_of,
     pip,
     relative,
     run,
@@ -125,7 +126,10 @@ def build_foreign_wheel(root: Path) -> Path:
         environment = build_environment()
         build_python = bootstrap.python_of(f"build-{bootstrap.primary_python()}")
         environment["PATH"] = os.pathsep.join([str(build_python.parent), environment["PATH"]])
-        # To CMake this is cross-compiling: there is no interpreter to ask.
+        # To CMake this is cross-compiling: there is no interpreter to ask. Modules link no Python
+        # library; one by name keeps CMake from taking the version from the local Python's.
+        library = build / f"libpython{python_version}.so"
+        library.touch()
         definitions = {
             "CMAKE_BUILD_TYPE": "Release",
             "CMAKE_SYSTEM_NAME": "Linux",
@@ -133,13 +137,8 @@ def build_foreign_wheel(root: Path) -> Path:
             "PYBIND11_USE_CROSSCOMPILING": "ON",
             "PYTHON_MODULE_EXTENSION": suffix,
             "Python_INCLUDE_DIR": str(include),
-            "pybind11_DIR": str(
-                next(
-                    build_python.parent.parent.glob(
-                        "lib/*/site-packages/pybind11/share/cmake/pybind11"
-                    )
-                )
-            ),
+            "Python_LIBRARY": str(library),
+            "pybind11_DIR": output_of([build_python, "-m", "pybind11", "--cmakedir"]),
             "BASICRT_BUILD_PYTHON": "ON",
             "BASICRT_BUILD_RENDERER": "OFF",
             "BASICRT_BUILD_TESTS": "OFF",
