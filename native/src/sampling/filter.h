@@ -28,8 +28,11 @@ struct FilterSettings {
 };
 
 struct FilterSample {
-  Vec2f offset;      // from the pixel's centre, in pixels
-  float weight = 1;  // 1, or -1 where the filter is negative (mitchell)
+  Vec2f offset;  // from the pixel's centre, in pixels
+  // One; for a filter with negative lobes (mitchell) plus or minus the integral of |filter| over that of the filter.
+  // Its mean is one, so a pixel is the sum of weight * radiance over the sum of weights, or over the number of
+  // samples: the first has less noise and is right in the limit, the second has no bias at any number of samples.
+  float weight = 1;
 };
 
 // A filter ready to sample: separable, so one table for both axes.
@@ -39,13 +42,20 @@ class PixelFilter {
 
   // `u` in [0, 1)^2.
   [[nodiscard]] FilterSample sample(Vec2f u) const;
-  // The filter at a distance from the centre along one axis, not normalised.
+  // The filter at a distance from the centre along one axis, not normalised; zero past the radius.
   [[nodiscard]] float eval(float distance) const;
 
  private:
+  struct AxisSample {
+    float offset, weight;
+  };
+  [[nodiscard]] AxisSample sample_axis(float u) const;
+
   FilterSettings settings_;
-  std::vector<float> cdf_;     // of |filter| over [-radius, radius]; empty for box
-  std::vector<float> values_;  // of the filter where the table's cells begin and end
+  // The axis [-radius, radius] in cells of like width; empty for box.
+  std::vector<float> cdf_;            // of |filter|, where the cells begin and end
+  std::vector<float> weights_;        // of a sample in each cell
+  std::vector<std::uint16_t> guide_;  // guide_[i] is the cell where the cdf reaches i / guide_.size()
 };
 
 }  // namespace basicrt
