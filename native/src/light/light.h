@@ -102,6 +102,9 @@ struct EmissionSample {
   float pdf_direction = 1;  // over solid angle (1 for a sun without angle)
 };
 
+// Light from a single place or direction: rays never run into it.
+[[nodiscard]] bool is_delta(const Light& light);
+// Nothing where no light arrives.
 [[nodiscard]] std::optional<LightSample> sample_light(const Light& light, Vec3f position, Vec2f u);
 [[nodiscard]] std::optional<LightHit> intersect_light(const Light& light, const Ray& ray);
 [[nodiscard]] float light_pdf(const Light& light, Vec3f position, Vec3f wi);
