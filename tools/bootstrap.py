@@ -19,6 +19,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import pythons
 from project import (
     ROOT,
     VENVS,
@@ -32,207 +33,29 @@ from project import (
     say,
     write_stamp,
 )
+from pythons import available_pythons, find_python, primary_python
+from system_packages import BLENDER_PACKAGES, BUILD_PACKAGES, install_packages
 
 # Blender version -> the Python its `bpy` wheel is built for.
 BLENDERS = {"4.2": "3.11", "4.5": "3.11", "5.0": "3.11", "5.2": "3.13"}
-# In order of preference: the first one found runs the linters, the demo and the tests without Blender.
-PYTHON_VERSIONS = ("3.11", "3.13")
 MINIMUM_CMAKE = (3, 22)
-
-# Names on Debian 12 and later and on Ubuntu 22.04 and later.
-BUILD_PACKAGES = (
-    "libgtest-dev",
-    "libopenexr-dev",
-    "libimath-dev",
-    "libstb-dev",
-    "libtinyobjloader-dev",
-    "nlohmann-json3-dev",
-)
-BLENDER_PACKAGES = (
-    "libegl1",
-    "libgl1",
-    "libgl1-mesa-dri",
-    "libgomp1",
-    "libsm6",
-    "libxfixes3",
-    "libxi6",
-    "libxkbcommon0",
-    "libxrender1",
-    "libxxf86vm1",
-)
-
-
-# ---- system packages ---------------------------------------------------------------------------
-
-
-def missing_packages(names: tuple[str, ...]) -> list[str]:
-    """The Debian packages among `names` that are not installed."""
-    result = subprocess.run(
-        ["dpkg-query", "-W", "-f", "${Package} ${db:Status-Status}\n", *names],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    installed = {
-        line.split()[0] for line in result.stdout.splitlines() if line.endswith(" installed")
-    }
-    return [name for name in names if name not in installed]
-
-
-def apt_prefix() -> list[str] | None:
-    """How to call apt-get with the right to install, or None when we have no such right."""
-    if os.geteuid() == 0:
-        return []
-    if shutil.which("sudo") and output_of(["sudo", "-n", "true"]) is not None:
-        return ["sudo", "-n"]
-    return None
-
-
-def install_packages(names: tuple[str, ...], purpose: str) -> None:
-    """Install the missing ones through apt, or stop and name them."""
-    if not shutil.which("dpkg-query"):
-        say(
-            f"this is not Debian or Ubuntu: make sure you have what these packages hold: {' '.join(names)}"
-        )
-        return
-    missing = missing_packages(names)
-    if not missing:
-        return
-    command = f"apt-get install --no-install-recommends {' '.join(missing)}"
-    prefix = apt_prefix()
-    if prefix is None:
-        raise ToolError(
-            f"{purpose} needs system packages. Install them with\n\n    sudo {command}\n\n"
-            "and run this again."
-        )
-    say(f"installing system packages for {purpose}: {' '.join(missing)}")
-    apt = [
-        *prefix,
-        "env",
-        "DEBIAN_FRONTEND=noninteractive",
-        "apt-get",
-        "-qq",
-        "-o",
-        "DPkg::Lock::Timeout=300",
-    ]
-    run([*apt, "update"], quiet=True)
-    run([*apt, "install", "-y", "--no-install-recommends", *missing], quiet=True)
 
 
 @functools.cache
 def ensure_system() -> None:
-    """Everything from the system's own packages, a compiler apart, that any command here uses."""
+    """Everything that virtual environments cannot hold: system packages, a compiler, a Python."""
     with locked("system"):
-        install_packages(BUILD_PACKAGES, "compiling BasicRT")
-        install_packages(BLENDER_PACKAGES, "running Blender's Python module")
+        if install_packages([*BUILD_PACKAGES, *BLENDER_PACKAGES, *pythons.needed_packages()]):
+            pythons.forget()
+        if not pythons.available_pythons():
+            pythons.fetch_python()
     if not any(shutil.which(name) for name in ("c++", "g++", "clang++")):
         raise ToolError("no C++ compiler found: install g++ 12 or clang++ 15, or newer")
-
-
-# ---- Python versions ---------------------------------------------------------------------------
-
-
-def python_candidates(wanted: str) -> Iterator[Path]:
-    """Places where a Python of this version may be, the likeliest first; some may not run."""
-    yield Path(sys.executable)
-    name = f"python{wanted}"
-    for entry in os.environ.get("PATH", "").split(os.pathsep):
-        yield Path(entry) / name
-    for folder, pattern in (
-        (Path.home(), f".pyenv/versions/{wanted}*/bin/{name}"),
-        (Path.home(), f".local/share/uv/python/cpython-{wanted}*/bin/{name}"),
-        (VENVS, f"python/cpython-{wanted}*/bin/{name}"),
-        (Path("/usr/local"), f"bin/{name}"),
-    ):
-        yield from sorted(folder.glob(pattern))
-
-
-PROBE = """
-import importlib.util, pathlib, sys, sysconfig
-header = pathlib.Path(sysconfig.get_path("include")) / "Python.h"
-has_venv = bool(importlib.util.find_spec("ensurepip"))
-print("%d.%d" % sys.version_info[:2], int(header.is_file()), int(has_venv),
-      getattr(sys, "_base_executable", sys.executable))
-"""
-
-
-@functools.cache
-def probe(python: Path) -> tuple[str, bool, Path] | None:
-    """(version, has headers and venv, the interpreter itself); None when it does not run."""
-    answer = output_of([python, "-c", PROBE]) if python.is_file() else None
-    if not answer:
-        return None
-    found, has_header, has_venv, executable = answer.split(maxsplit=3)
-    return found, has_header == "1" and has_venv == "1", Path(executable)
-
-
-@functools.cache
-def find_python(wanted: str) -> Path | None:
-    """A Python of exactly this minor version that can make virtual environments and compile modules."""
-    incomplete = None
-    for candidate in python_candidates(wanted):
-        answer = probe(candidate)
-        if answer and answer[0] == wanted:
-            if answer[1]:
-                return answer[2]
-            incomplete = answer[2]
-    if incomplete and shutil.which("dpkg-query") and incomplete.is_relative_to("/usr/bin"):
-        # Debian and Ubuntu split Python: headers and `venv` are packages of their own.
-        install_packages((f"python{wanted}-dev", f"python{wanted}-venv"), f"Python {wanted}")
-        return incomplete
-    return None
-
-
-@functools.cache
-def available_pythons() -> tuple[str, ...]:
-    """Those of PYTHON_VERSIONS that this machine has; if none, one is fetched."""
-    with locked("system"):
-        found = tuple(wanted for wanted in PYTHON_VERSIONS if find_python(wanted))
-        return found or (fetch_python(),)
-
-
-def fetch_python() -> str:
-    """Let the `uv` tool download a Python for the project alone: last resort where none fits Blender."""
-    wanted = PYTHON_VERSIONS[0]
-    say(
-        f"Blender's Python module needs Python {' or '.join(PYTHON_VERSIONS)}, "
-        f"and none is here: fetching {wanted}"
-    )
-    try:
-        tool = VENVS / "uv"
-        run([sys.executable, "-m", "venv", tool])
-        run([tool / "bin" / "python", "-m", "pip", "install", "--quiet", "uv"])
-        run(
-            [
-                tool / "bin" / "uv",
-                "python",
-                "install",
-                "--no-bin",
-                "--install-dir",
-                VENVS / "python",
-                wanted,
-            ]
-        )
-    except ToolError as error:
-        raise ToolError(
-            f"{error}\nInstall Python {wanted} (on Ubuntu: from the deadsnakes archive, or with pyenv or uv) "
-            f"as `python{wanted}` and run this again."
-        ) from error
-    find_python.cache_clear()
-    return wanted
-
-
-def primary_python() -> str:
-    """The Python version used wherever any would do."""
-    return available_pythons()[0]
 
 
 def demo_blender() -> str:
     """The Blender version for the demo: 5.0, or 5.2 where only Python 3.13 is available."""
     return "5.0" if "3.11" in available_pythons() else "5.2"
-
-
-# ---- virtual environments ----------------------------------------------------------------------
 
 
 @contextlib.contextmanager
@@ -264,14 +87,14 @@ def requirements(name: str, python: Path) -> list[str]:
 @functools.cache
 def missing_build_tools() -> tuple[str, ...]:
     """Of CMake and Ninja, what the system lacks or has too old; pip brings these."""
-    answer = output_of(["cmake", "--version"]) or ""
+    entries = os.environ.get("PATH", "").split(os.pathsep)
+    path = os.pathsep.join(entry for entry in entries if not Path(entry).is_relative_to(VENVS))
+    cmake = shutil.which("cmake", path=path)
+    answer = (output_of([cmake, "--version"]) if cmake else None) or ""
     match = re.search(r"version (\d+)\.(\d+)", answer)
-    has_cmake = (
-        bool(match) and tuple(int(part) for part in match.groups()) >= MINIMUM_CMAKE
-        if match
-        else False
-    )
-    return (() if has_cmake else ("cmake",)) + (() if shutil.which("ninja") else ("ninja",))
+    has_cmake = match is not None and (int(match[1]), int(match[2])) >= MINIMUM_CMAKE
+    has_ninja = shutil.which("ninja", path=path) is not None
+    return (() if has_cmake else ("cmake",)) + (() if has_ninja else ("ninja",))
 
 
 def python_for(name: str) -> str:
@@ -308,9 +131,6 @@ def ensure_venv(name: str) -> Path:
         )
         write_stamp(stamp, key)
     return python
-
-
-# ---- the command -------------------------------------------------------------------------------
 
 
 def main() -> int:

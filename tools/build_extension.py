@@ -18,6 +18,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import bootstrap
+import pythons
 from build_wheel import build_foreign_wheel, build_wheel
 from project import DIST, ROOT, ToolError, relative, run, say, version
 
@@ -111,7 +112,7 @@ def main() -> int:
     parser.add_argument("--headers", action="append", type=Path, default=[], metavar="ROOT")
     arguments = parser.parse_args()
     try:
-        wheels = [build_wheel(wanted) for wanted in bootstrap.available_pythons()]
+        wheels = [build_wheel(wanted) for wanted in pythons.available_pythons()]
         wheels += [build_foreign_wheel(root.resolve()) for root in arguments.headers]
         say(f"made {relative(build_extension(wheels))}")
     except ToolError as error:

@@ -21,6 +21,7 @@ import zipfile
 from pathlib import Path
 
 import bootstrap
+import pythons
 from project import (
     DIST,
     ROOT,
@@ -114,7 +115,7 @@ def collect_headers(root: Path, python_version: str, folder: Path) -> list[Path]
 def build_foreign_wheel(root: Path) -> Path:
     """A wheel for the Python under `root`: the module is compiled anew, the rest is the local wheel's."""
     python_version, suffix = foreign_python(root)
-    donor = build_wheel(bootstrap.primary_python())
+    donor = build_wheel(pythons.primary_python())
     wheel = wheel_path(python_version)
     with bootstrap.locked(f"wheel-{python_version}"):
         stamp, key = DIST / f".{wheel.name}.stamp", sources_key(python_version, str(root), suffix)
@@ -124,7 +125,7 @@ def build_foreign_wheel(root: Path) -> Path:
         build = ROOT / f"build-wheel/foreign-{python_version}"
         include, parent = collect_headers(root, python_version, build / "headers")
         environment = build_environment()
-        build_python = bootstrap.python_of(f"build-{bootstrap.primary_python()}")
+        build_python = bootstrap.python_of(f"build-{pythons.primary_python()}")
         environment["PATH"] = os.pathsep.join([str(build_python.parent), environment["PATH"]])
         # To CMake this is cross-compiling: there is no interpreter to ask. Modules link no Python
         # library; one by name keeps CMake from taking the version from the local Python's.
@@ -191,7 +192,7 @@ def main() -> int:
     parser.add_argument("--headers", action="append", type=Path, default=[], metavar="ROOT")
     arguments = parser.parse_args()
     try:
-        local = arguments.python or ([] if arguments.headers else bootstrap.available_pythons())
+        local = arguments.python or ([] if arguments.headers else pythons.available_pythons())
         wheels = [build_wheel(wanted) for wanted in local]
         wheels += [build_foreign_wheel(root.resolve()) for root in arguments.headers]
     except ToolError as error:

@@ -18,6 +18,7 @@ from typing import IO
 
 import bootstrap
 import lint
+import pythons
 from build_extension import build_extension
 from build_wheel import build_foreign_wheel, build_wheel, install_wheel
 from project import (
@@ -207,8 +208,8 @@ def run_tsan(context: Context) -> Counts:
 def run_wheels(_context: Context) -> Counts:
     """One wheel per Python version."""
     counts = Counts()
-    for version in bootstrap.PYTHON_VERSIONS:
-        if version in bootstrap.available_pythons():
+    for version in pythons.PYTHON_VERSIONS:
+        if version in pythons.available_pythons():
             counts.add_check(build_wheel(version).exists())
         else:
             counts.add(skipped(f"no Python {version} here"))
@@ -254,7 +255,7 @@ def run_extension(context: Context) -> Counts:
         return skipped("there is no addon/ yet")
     for version in usable_blenders():
         bootstrap.ensure_venv(f"bpy-{version}")
-    wheels = [build_wheel(version) for version in bootstrap.available_pythons()]
+    wheels = [build_wheel(version) for version in pythons.available_pythons()]
     wheels += [build_foreign_wheel(root) for root in foreign_roots()]
     context.log.write(f"{build_extension(wheels)}\n")
     return Counts(passed=1)
@@ -262,9 +263,7 @@ def run_extension(context: Context) -> Counts:
 
 def usable_blenders() -> list[str]:
     """The Blender versions whose Python is here."""
-    return [
-        v for v, python in bootstrap.BLENDERS.items() if python in bootstrap.available_pythons()
-    ]
+    return [v for v, python in bootstrap.BLENDERS.items() if python in pythons.available_pythons()]
 
 
 def extension_zip() -> dict[str, str]:
