@@ -6,7 +6,6 @@ Uses the standard library only, because it runs before any virtual environment e
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import os
 import re
@@ -142,14 +141,3 @@ def write_stamp(stamp: Path, key: str) -> None:
     """Remember that what `key` stands for is done."""
     stamp.parent.mkdir(parents=True, exist_ok=True)
     stamp.write_text(key, encoding="utf-8")
-
-
-@functools.cache
-def real_blender_tool() -> Path | None:
-    """The script that makes and runs real Blender executables, where this machine has one.
-
-    `BASICRT_REAL_BLENDER` names it; otherwise it is looked for beside the checkout.
-    """
-    named = os.environ.get("BASICRT_REAL_BLENDER")
-    path = Path(named) if named else ROOT.parent / "shared" / "tools" / "real-blender"
-    return path if path.is_file() else None

@@ -19,6 +19,8 @@ from stages import STAGES, Context, Counts, prefetch
 
 # Without these, later stages would only repeat the same failure.
 NEEDED_BY_ALL = {"wheels": {"stubs", "python", "extension", "blender", "executables", "readme"}}
+# How much of a failed stage's log is shown; all of it is in the file.
+LOG_LINES = 200
 
 
 def run_stage(name: str, build_only: bool) -> Counts:
@@ -34,7 +36,8 @@ def run_stage(name: str, build_only: bool) -> Counts:
             log.write(f"{error}\n")
             counts = Counts(failed=1)
     if counts.failed:
-        print(log_path.read_text(encoding="utf-8", errors="replace"), flush=True)
+        lines = log_path.read_text(encoding="utf-8", errors="replace").splitlines()
+        print(*lines[-LOG_LINES:], sep="\n", flush=True)
     for note in counts.notes:
         print(f"   {note}")
     word = "FAILED" if counts.failed else "ok"

@@ -19,18 +19,17 @@ from typing import IO
 import bootstrap
 import lint
 import pythons
+import real_blenders
 from build_extension import build_extension
 from build_wheel import build_foreign_wheel, build_wheel, install_wheel
 from project import (
     DIST,
     REPORTS,
     ROOT,
-    VENVS,
     Command,
     ToolError,
     build_environment,
     output_of,
-    real_blender_tool,
 )
 
 # Longer than anything takes that is not stuck.
@@ -229,24 +228,16 @@ def run_python(context: Context) -> Counts:
 
 
 def foreign_roots() -> list[Path]:
-    """Folders of real Blenders whose Python has headers but cannot be run here."""
-    tool = real_blender_tool()
-    roots = [output_of_setup([tool, "root", "sid"])] if tool else []
-    return [
-        Path(root)
-        for root in roots
-        if root and any(Path(root).glob("usr/include/python3.*/Python.h"))
-    ]
-
-
-def output_of_setup(command: Command) -> str | None:
-    """What a set-up command that may take minutes prints in its last line, or None when it fails."""
-    words = [str(word) for word in command]
-    result = subprocess.run(
-        words, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False
-    )
-    lines = result.stdout.split()
-    return lines[-1] if result.returncode == 0 and lines else None
+    """Folders of real Blenders whose Python none of ours can compile for."""
+    found = []
+    for root in real_blenders.roots():
+        headers = next(root.glob("usr/include/python3.*/Python.h"), None)
+        if (
+            headers
+            and headers.parent.name.removeprefix("python") not in pythons.available_pythons()
+        ):
+            found.append(root)
+    return found
 
 
 def run_extension(context: Context) -> Counts:
@@ -292,29 +283,23 @@ def blender_stage(version: str) -> Stage:
     return run_blender
 
 
-def real_blenders() -> list[str]:
-    """Commands that start a real Blender: `BASICRT_BLENDER`, or what the set-up script can make."""
-    named = os.environ.get("BASICRT_BLENDER")
-    if named is not None:
-        return [command for command in named.split(os.pathsep) if command]
-    tool = real_blender_tool()
-    suites = [
-        s for s in ("trixie", "sid") if tool and output_of_setup([tool, "setup", s]) is not None
-    ]
-    return [f"{shlex.quote(str(tool))} run {suite}" for suite in suites]
+def name_executables() -> bool:
+    """Tell the tests which real Blenders there are; whether there are any."""
+    os.environ["BASICRT_BLENDER"] = os.pathsep.join(real_blenders.commands())
+    return bool(os.environ["BASICRT_BLENDER"])
 
 
 def run_executables(context: Context) -> Counts:
     """Installed into real Blender executables."""
-    commands = real_blenders()
-    if not commands:
+    if not name_executables():
         return skipped("no Blender executable: name some in BASICRT_BLENDER (separated by colons)")
-    os.environ.update(extension_zip(), BASICRT_BLENDER=os.pathsep.join(commands))
+    os.environ.update(extension_zip())
     return pytest(context, install_wheel("test"), ["tests/blender/executable"])
 
 
 def run_readme(context: Context) -> Counts:
     """Every command in the README."""
+    name_executables()
     return pytest(context, install_wheel("test"), ["tests/readme"])
 
 
@@ -339,7 +324,6 @@ def prefetch() -> None:
         bootstrap.ensure_system()
         for version in usable_blenders():
             bootstrap.ensure_venv(f"bpy-{version}")
-        if VENVS.exists():
-            real_blenders()
+        real_blenders.roots()
     except ToolError as error:
         print(f"-- preparing Blender: {error}", file=sys.stderr)
