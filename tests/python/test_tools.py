@@ -94,5 +94,5 @@ def test_missing_packages_are_named_where_they_cannot_be_installed(
     monkeypatch.setattr(system_packages, "is_debian", lambda: True)
     monkeypatch.setattr(system_packages, "missing_packages", lambda names: ["libxi6"])
     monkeypatch.setattr(system_packages, "apt_prefix", lambda: None)
-    with pytest.raises(system_packages.ToolError, match="sudo apt-get install .* libxi6"):
+    with pytest.raises(system_packages.ToolError, match=r"sudo apt-get install .* libxi6"):
         system_packages.install_packages(["libxi6", "libgl1"])
