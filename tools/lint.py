@@ -28,6 +28,7 @@ def checks() -> dict[str, Command]:
     typed = [ROOT / name for name in TYPED_FOLDERS if any((ROOT / name).rglob("*.py"))]
     commands: dict[str, Command] = {
         "layers": [sys.executable, ROOT / "tools/check_layers.py"],
+        "licences": [sys.executable, ROOT / "tools/check_licence_lines.py"],
         "ruff": [bin_folder / "ruff", "check", "--quiet", "."],
         "ruff-format": [bin_folder / "ruff", "format", "--diff", "."],
         "mypy": [bin_folder / "mypy", *typed],

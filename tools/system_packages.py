@@ -12,6 +12,7 @@ from project import Command, ToolError, output_of, run, say
 
 # Names on Debian 12 and later and on Ubuntu 22.04 and later.
 BUILD_PACKAGES = (
+    "ccache",  # the core is compiled alike for each Python
     "libgtest-dev",
     "libimath-dev",
     "libopenexr-dev",
