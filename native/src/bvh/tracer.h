@@ -6,16 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "bvh/bvh.h"
+#include "bvh/shape_tree.h"
+#include "bvh/wide_bvh.h"
 #include "geometry/hit.h"
-#include "geometry/shape.h"
 #include "math/ray.h"
 #include "math/transform.h"
 
 namespace basicrt {
-
-// A shape's tree, in object space. Keeps no pointer to the shape it was built from.
-struct ShapeTree;
 
 struct TracedInstance {
   std::uint32_t shape = 0;  // index into the trees
@@ -32,7 +29,8 @@ class Tracer {
   Tracer(Tracer&&) noexcept;
   Tracer& operator=(Tracer&&) noexcept;
 
-  // The nearest hit of each ray in [t_min, t_max]. A ray with a NaN misses.
+  // The nearest hit of each ray in [t_min, t_max]; of hits at exactly the same distance that of the lowest instance,
+  // then primitive. A ray with a NaN, or from or towards infinity, misses.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
   // Whether anything at all lies in [t_min, t_max]: 1 or 0 for each ray.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results) const;
@@ -42,9 +40,23 @@ class Tracer {
   [[nodiscard]] std::vector<ShapeTree> take_trees();
 
  private:
-  // (the bvh layer's own business)
-};
+  // What a ray needs of an instance, in the order of the leaves of `instance_bvh_`.
+  struct PlacedInstance {
+    TransformD world_to_object;
+    std::uint32_t shape;
+    std::uint32_t index;  // as the constructor got it
+    std::uint32_t visibility;
+    bool is_translation;
+  };
 
-[[nodiscard]] ShapeTree build_shape_tree(const Shape& shape, const BvhConfig& config);
+  template <class Query>
+  void trace(const Ray& ray, Query& query) const;
+  template <class Query>
+  void trace_instance(const PlacedInstance& instance, const Ray& ray, Query& query) const;
+
+  std::vector<ShapeTree> trees_;
+  std::vector<PlacedInstance> placed_;
+  WideBvh instance_bvh_;  // its leaves' items are placed instances
+};
 
 }  // namespace basicrt

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A shape made ready for rays, in its own space.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "bvh/bvh.h"
+#include "bvh/triangle_pair.h"
+#include "bvh/wide_bvh.h"
+#include "geometry/shape.h"
+
+namespace basicrt {
+
+struct MeshTree {
+  WideBvh bvh;  // its leaves' items are pairs
+  std::vector<TrianglePair> pairs;
+};
+
+// Keeps no pointer to the shape it was built from.
+struct ShapeTree {
+  std::variant<MeshTree, Sphere> geometry;
+  Bounds3f bounds;  // empty where there is nothing to hit
+};
+
+[[nodiscard]] ShapeTree build_shape_tree(const Shape& shape, const BvhConfig& config);
+
+}  // namespace basicrt

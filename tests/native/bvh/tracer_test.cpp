@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The tracer against testing every primitive: the same hits, bit for bit, whatever the trees look like.
+#include "bvh/tracer.h"
+
+#include <gtest/gtest.h>
+
+#include "bvh/test_scenes.h"
+
+namespace basicrt {
+namespace {
+
+constexpr BvhBuilder builders[] = {BvhBuilder::median, BvhBuilder::binned_sah};
+
+// Compares `count` rays and returns how many hit anything, so that callers can see that the test tested something.
+int compare_with_brute_force(const std::vector<Shape>& shapes, const std::vector<TracedInstance>& instances,
+                             const std::vector<Ray>& rays, const std::string& name) {
+  int hit_count = 0;
+  for (const BvhBuilder builder : builders) {
+    SCOPED_TRACE(name + (builder == BvhBuilder::median ? ", median" : ", binned SAH"));
+    const Tracer tracer = test::make_tracer(shapes, instances, {.builder = builder});
+    std::vector<Hit> hits(rays.size());
+    std::vector<std::uint8_t> occluded(rays.size());
+    tracer.intersect(rays, hits);
+    tracer.occluded(rays, occluded);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit expected = test::brute_force(shapes, instances, rays[i]);
+      hit_count += expected.is_hit();
+      const bool is_same = hits[i].t == expected.t && hits[i].instance == expected.instance &&
+                           hits[i].primitive == expected.primitive && hits[i].u == expected.u &&
+                           hits[i].v == expected.v;
+      EXPECT_TRUE(is_same) << "ray " << i << ": t " << hits[i].t << " instead of " << expected.t << ", primitive "
+                           << hits[i].primitive << " instead of " << expected.primitive;
+      EXPECT_EQ(occluded[i], expected.is_hit()) << "ray " << i;
+      if (testing::Test::HasFailure()) return hit_count;
+    }
+  }
+  return hit_count;
+}
+
+std::vector<Ray> random_rays(test::Random& rng, int count) {
+  std::vector<Ray> rays;
+  for (int i = 0; i < count; ++i) rays.push_back(test::random_ray(rng));
+  return rays;
+}
+
+TEST(Tracer, agrees_with_brute_force_on_every_kind_of_shape) {
+  test::Random rng(1);
+  for (const auto& [name, shape] : test::shapes_of_every_kind(rng)) {
+    const int hits = compare_with_brute_force({shape}, {test::place(0, {})}, random_rays(rng, 2000), name);
+    const bool is_visible = name != "empty mesh" && name != "denormal";
+    EXPECT_GT(hits, is_visible ? 100 : -1) << name;
+  }
+}
+
+TEST(Tracer, agrees_with_brute_force_on_rays_through_shared_corners_and_edges) {
+  test::Random rng(2);
+  const Mesh grid = test::flat_grid(16);
+  std::vector<Ray> rays;
+  for (const Vec3f& target : grid.positions) {
+    const Vec3f origin = test::random_point(rng, 3) + Vec3f{0, 0, 4};
+    rays.push_back({.origin = origin, .direction = target - origin});
+    rays.push_back({.origin = {target.x, target.y, 1}, .direction = {0, 0, -1}});
+    rays.push_back({.origin = {target.x, -2, 0}, .direction = {0, 1, 0}});  // in the plane
+  }
+  EXPECT_GT(compare_with_brute_force({grid}, {test::place(0, {})}, rays, "grid"), 500);
+}
+
+TEST(Tracer, agrees_with_brute_force_on_a_mesh_below_the_normal_floats) {
+  test::Random rng(3);
+  const Mesh mesh = test::denormal(rng);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3f origin = test::random_point(rng) * 3e-40f;
+    rays.push_back({.origin = origin, .direction = test::random_point(rng) * 1e-40f - origin});
+    rays.push_back({.origin = origin, .direction = test::random_point(rng)});
+  }
+  EXPECT_GT(compare_with_brute_force({mesh}, {test::place(0, {})}, rays, "denormal"), 500);
+}
+
+TEST(Tracer, agrees_with_brute_force_on_instances_under_any_transform) {
+  test::Random rng(4);
+  std::vector<Shape> shapes;
+  for (const auto& [name, shape] : test::shapes_of_every_kind(rng)) shapes.push_back(shape);
+  std::vector<TracedInstance> instances;
+  for (std::uint32_t shape = 0; shape < shapes.size(); ++shape)
+    for (int copy = 0; copy < 3; ++copy) instances.push_back(test::place(shape, test::random_transform(rng)));
+  const TransformD mirrored({{{-1, 0, 0, 0.5}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
+  const TransformD sheared({{{1, 0.9, 0, 0}, {0, 1, 0.7, -0.2}, {0, 0, 1, 0}}});
+  const TransformD nearly_flat({{{1, 0, 0, 0}, {0, 1e-6, 0, 0.1}, {0, 0, 1, 0}}});
+  const TransformD far_away({{{1, 0, 0, 1000}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
+  for (const TransformD& transform : {mirrored, sheared, nearly_flat, far_away})
+    instances.push_back(test::place(0, transform));
+  EXPECT_GT(compare_with_brute_force(shapes, instances, random_rays(rng, 2000), "instances"), 500);
+}
+
+TEST(Tracer, gives_the_lowest_instance_and_primitive_of_equally_near_hits) {
+  test::Random rng(5);
+  const Mesh mesh = test::coincident(rng, 40);
+  const Vec3f target = (mesh.positions[0] + mesh.positions[1] + mesh.positions[2]) * (1 / 3.0f);
+  const std::vector<Ray> rays{{.origin = target + Vec3f{1, 2, 3}, .direction = {-1, -2, -3}}};
+  for (const BvhBuilder builder : builders) {
+    const std::vector<TracedInstance> twice{test::place(0, {}), test::place(0, {})};
+    const Tracer tracer = test::make_tracer({mesh}, twice, {.builder = builder});
+    std::vector<Hit> hits(1);
+    tracer.intersect(rays, hits);
+    ASSERT_TRUE(hits[0].is_hit());
+    EXPECT_EQ(hits[0].instance, 0u);
+    EXPECT_EQ(hits[0].primitive, 0u);
+  }
+}
+
+TEST(Tracer, honours_the_interval_at_both_ends) {
+  const Tracer tracer = test::make_tracer({test::flat_grid(1)}, {test::place(0, {})}, {});
+  const auto hits = [&](float t_min, float t_max) {
+    const std::vector<Ray> rays{{.origin = {0.25f, 0.5f, 2}, .t_min = t_min, .direction = {0, 0, -1}, .t_max = t_max}};
+    std::vector<std::uint8_t> result(1);
+    std::vector<Hit> hit(1);
+    tracer.occluded(rays, result);
+    tracer.intersect(rays, hit);
+    EXPECT_EQ(hit[0].is_hit(), result[0] == 1);
+    return result[0] == 1;
+  };
+  EXPECT_TRUE(hits(0, 2));
+  EXPECT_TRUE(hits(2, 2));
+  EXPECT_TRUE(hits(2, infinity));
+  EXPECT_TRUE(hits(-1, 3));
+  EXPECT_FALSE(hits(0, std::nextafter(2.0f, 0.0f)));
+  EXPECT_FALSE(hits(std::nextafter(2.0f, 3.0f), infinity));
+  EXPECT_FALSE(hits(3, 1));
+}
+
+TEST(Tracer, sees_an_instance_only_with_rays_of_its_visibility) {
+  TracedInstance instance = test::place(0, {});
+  instance.visibility = ray_camera | ray_shadow;
+  const Tracer tracer = test::make_tracer({test::flat_grid(1)}, {instance}, {});
+  for (const std::uint32_t kind : {ray_camera, ray_diffuse, ray_glossy, ray_transmission, ray_volume, ray_shadow}) {
+    const std::vector<Ray> rays{{.origin = {0.25f, 0.5f, 2}, .direction = {0, 0, -1}, .kinds = kind}};
+    std::vector<Hit> hits(1);
+    std::vector<std::uint8_t> occluded(1);
+    tracer.intersect(rays, hits);
+    tracer.occluded(rays, occluded);
+    const bool is_seen = kind == ray_camera || kind == ray_shadow;
+    EXPECT_EQ(hits[0].is_hit(), is_seen) << kind;
+    EXPECT_EQ(occluded[0], is_seen) << kind;
+  }
+}
+
+TEST(Tracer, rays_with_unusable_numbers_miss) {
+  test::Random rng(6);
+  const Tracer tracer = test::make_tracer({test::soup(rng, 100, 1), Sphere{}},
+                                          {test::place(0, {}), test::place(1, test::random_transform(rng))}, {});
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity}) {
+    std::vector<Ray> rays(6, Ray{.origin = {3, 0.1f, 0.2f}, .direction = {-1, 0, 0}});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      rays[axis].origin[axis] = bad;
+      rays[3 + axis].direction[axis] = bad;
+    }
+    if (std::isnan(bad)) {
+      rays.push_back({.origin = {3, 0.1f, 0.2f}, .t_min = bad, .direction = {-1, 0, 0}});
+      rays.push_back({.origin = {3, 0.1f, 0.2f}, .direction = {-1, 0, 0}, .t_max = bad});
+      rays.push_back({.origin = {0, 0, 0}, .direction = {0, 0, 0}});
+    }
+    std::vector<Hit> hits(rays.size());
+    std::vector<std::uint8_t> occluded(rays.size(), 1);
+    tracer.intersect(rays, hits);
+    tracer.occluded(rays, occluded);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      EXPECT_FALSE(hits[i].is_hit()) << i;
+      EXPECT_EQ(occluded[i], 0) << i;
+    }
+  }
+}
+
+TEST(Tracer, misses_everything_in_an_empty_scene) {
+  test::Random rng(7);
+  const std::vector<Ray> rays = random_rays(rng, 10);
+  std::vector<Hit> hits(rays.size());
+  std::vector<std::uint8_t> occluded(rays.size(), 1);
+  const auto expect_misses = [&](const Tracer& tracer) {
+    tracer.intersect(rays, hits);
+    tracer.occluded(rays, occluded);
+    for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_TRUE(!hits[i].is_hit() && occluded[i] == 0);
+    EXPECT_TRUE(tracer.bounds().is_empty());
+  };
+  expect_misses(Tracer{});
+  expect_misses(test::make_tracer({}, {}, {}));
+  expect_misses(test::make_tracer({Mesh{}}, {test::place(0, {})}, {}));
+}
+
+TEST(Tracer, gives_its_trees_back_ready_for_the_next) {
+  test::Random rng(8);
+  const std::vector<Shape> shapes{test::soup(rng, 100, 0.5f), Sphere{}};
+  Tracer tracer = test::make_tracer(shapes, {test::place(0, {}), test::place(1, {})}, {});
+  std::vector<ShapeTree> trees = tracer.take_trees();
+  ASSERT_EQ(trees.size(), 2u);
+  EXPECT_TRUE(tracer.bounds().is_empty());
+
+  const std::vector<TracedInstance> moved{test::place(0, test::random_transform(rng))};
+  const Tracer again(std::move(trees), moved, {});
+  const std::vector<Ray> rays = random_rays(rng, 500);
+  std::vector<Hit> hits(rays.size());
+  again.intersect(rays, hits);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    EXPECT_EQ(hits[i].primitive, test::brute_force(shapes, moved, rays[i]).primitive);
+}
+
+TEST(Tracer, bounds_hold_every_instance) {
+  test::Random rng(9);
+  const Mesh mesh = test::soup(rng, 50, 0.5f);
+  const TransformD transform = test::random_transform(rng);
+  const Bounds3f box = test::make_tracer({mesh}, {test::place(0, transform)}, {}).bounds();
+  for (const Vec3f& p : mesh.positions) {
+    const Vec3d q = transform.point(Vec3d(p));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_LE(double{box.lower[axis]}, q[axis]);
+      EXPECT_GE(double{box.upper[axis]}, q[axis]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace basicrt
