@@ -20,15 +20,19 @@
 
 namespace basicrt {
 
-// The values that a number, or each number of a vector, may take. Whatever the range, numbers must be finite.
+// The values that a number, or each number of a vector, may take. Numbers must be finite unless the range says more.
 struct Range {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   bool is_minimum_excluded = false;
+  bool may_be_infinite = false;
 };
 
 constexpr Range at_least(double minimum) { return {.minimum = minimum}; }
 constexpr Range above(double minimum) { return {.minimum = minimum, .is_minimum_excluded = true}; }
+constexpr Range above_or_infinite(double minimum) {
+  return {.minimum = minimum, .is_minimum_excluded = true, .may_be_infinite = true};
+}
 constexpr Range within(double minimum, double maximum) { return {.minimum = minimum, .maximum = maximum}; }
 
 template <class Struct, class Value>

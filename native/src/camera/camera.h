@@ -23,7 +23,7 @@ struct PerspectiveCamera {
                       field("window_min", &PerspectiveCamera::window_min, "lower left corner on the plane z = -1"),
                       field("window_max", &PerspectiveCamera::window_max, "upper right corner on the plane z = -1"),
                       field("clip_near", &PerspectiveCamera::clip_near, "nothing nearer is seen, metres", at_least(0)),
-                      field("clip_far", &PerspectiveCamera::clip_far, "nothing farther is seen, metres", above(0))};
+                      field("clip_far", &PerspectiveCamera::clip_far, "nothing farther is seen, metres", above_or_infinite(0))};
   }
 };
 
@@ -38,7 +38,7 @@ struct OrthographicCamera {
                       field("window_min", &OrthographicCamera::window_min, "lower left corner, metres"),
                       field("window_max", &OrthographicCamera::window_max, "upper right corner, metres"),
                       field("clip_near", &OrthographicCamera::clip_near, "nothing nearer is seen, metres", at_least(0)),
-                      field("clip_far", &OrthographicCamera::clip_far, "nothing farther is seen, metres", above(0))};
+                      field("clip_far", &OrthographicCamera::clip_far, "nothing farther is seen, metres", above_or_infinite(0))};
   }
 };
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string_view>
+#include <tuple>
 #include <variant>
 
+#include "base/describe.h"
 #include "geometry/mesh.h"
 
 namespace basicrt {
@@ -13,6 +15,11 @@ namespace basicrt {
 struct Sphere {
   Vec3f center;
   float radius = 1;
+  static constexpr std::string_view kind = "sphere";
+  static constexpr auto fields() {
+    return std::tuple{field("center", &Sphere::center, "object space, metres"),
+                      field("radius", &Sphere::radius, "metres", above(0))};
+  }
 };
 
 using Shape = std::variant<Mesh, Sphere>;

@@ -79,4 +79,10 @@ constexpr Bounds3<T> transform_bounds(const Affine<T>& m, const Bounds3<T>& box)
   return result;
 }
 
+template <class T, class Visitor>
+constexpr void for_each_number(const Affine<T>& m, Visitor&& visit) {
+  for (const auto& row : m.rows)
+    for (const T number : row) visit(number);
+}
+
 }  // namespace basicrt

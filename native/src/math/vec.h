@@ -108,4 +108,14 @@ constexpr V lerp(V a, V b, T t) {
   return a * (T(1) - t) + b * t;
 }
 
+// Calls visit(number) for each component: how validate_fields() looks into a described field.
+template <class T, class Visitor>
+constexpr void for_each_number(Vec2<T> a, Visitor&& visit) {
+  visit(a.x), visit(a.y);
+}
+template <class T, class Visitor>
+constexpr void for_each_number(Vec3<T> a, Visitor&& visit) {
+  visit(a.x), visit(a.y), visit(a.z);
+}
+
 }  // namespace basicrt

@@ -25,6 +25,11 @@ struct ColorInput {
   ColorInput(Color c) : constant(c) {}  // NOLINT: a colour is a colour input
 };
 
+template <class Visitor>
+constexpr void for_each_number(const ColorInput& input, Visitor&& visit) {
+  for_each_number(input.constant, visit);
+}
+
 // The index of a node in Material::nodes.
 using NodeIndex = std::uint32_t;
 inline constexpr NodeIndex no_node = ~0u;
