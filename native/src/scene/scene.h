@@ -40,5 +40,7 @@ struct Scene {
 
 // Throws SceneError naming the first item that can't be rendered, the rule and the value. After it nothing throws.
 void validate(const Scene& scene);
+// The same but for what only rendering needs, a camera.
+void validate_description(const Scene& scene);
 
 }  // namespace basicrt

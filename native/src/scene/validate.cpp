@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a scene must fulfil before anything is built from it.
+#include <cmath>
+#include <string>
+#include <variant>
+
+#include "base/error.h"
+#include "base/validate_fields.h"
+#include "scene/scene.h"
+
+namespace basicrt {
+namespace {
+
+// Beyond it, squares and products of lengths leave the range of floats.
+constexpr float largest_coordinate = 1e15f;
+
+std::string entry(const char* table, std::size_t index) {
+  return std::string(table) + "[" + std::to_string(index) + "]";
+}
+
+template <class T>
+void validate_id(Id<T> id, const Table<T>& table, const std::string& item, const char* things) {
+  if (!table.contains(id))
+    throw SceneError(item, "id " + (id.is_valid() ? std::to_string(id.index) : std::string("none")) +
+                               ", but the scene has " + std::to_string(table.size()) + " " + things);
+}
+
+// Relative to the columns' lengths: small is fine, flat is not.
+bool is_singular(const Transform& transform) {
+  const TransformD m(transform);
+  const double size = length(m.column(0)) * length(m.column(1)) * length(m.column(2));
+  return !(std::abs(m.determinant()) > 1e-9 * size);
+}
+
+void validate_transform(const Transform& transform, const std::string& item) {
+  validate_field(transform, Range{}, item, "");
+  if (is_singular(transform)) throw SceneError(item, "is singular: it flattens space and has no inverse");
+}
+
+// All that is asked of any described struct: its ranges, and that its transforms have inverses.
+template <Described Struct>
+void validate_described(const Struct& object, const std::string& item) {
+  validate_fields(object, item);
+  for_each_field<Struct>([&]<class Value>(const Field<Struct, Value>& field) {
+    if constexpr (std::same_as<Value, Transform>) validate_transform(object.*field.member, join_path(item, field.name));
+  });
+}
+
+void validate_image(const Image& image, const std::string& item) {
+  if (image.width < 1 || image.height < 1) throw SceneError(item, "the image has no pixels");
+  if (image.channels < 1 || image.channels > 4)
+    throw SceneError(item, "an image must have 1 to 4 channels, has " + std::to_string(image.channels));
+  const std::size_t expected = static_cast<std::size_t>(image.width) * image.height * image.channels;
+  if (image.pixels.size() != expected)
+    throw SceneError(item, "width, height and channels make " + std::to_string(expected) + " numbers, but there are " +
+                               std::to_string(image.pixels.size()));
+  for (const float number : image.pixels)
+    if (!std::isfinite(number)) throw SceneError(item, "a pixel is " + number_text(number));
+}
+
+void validate_textures(const Scene& scene) {
+  for (std::uint32_t i = 0; i < scene.textures.size(); ++i) {
+    const std::string item = entry("textures", i);
+    std::visit([&](const auto& texture) { validate_described(texture, item); }, scene.textures[i]);
+    if (const auto* image = std::get_if<ImageTexture>(&scene.textures[i])) validate_image(image->image, item);
+  }
+}
+
+// What a shader refers to: textures of the scene, and nodes before it.
+template <class Shader>
+void validate_shader(const Scene& scene, const Shader& shader, NodeIndex index, const std::string& item) {
+  validate_described(shader, item);
+  for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
+    const Value& value = shader.*field.member;
+    if constexpr (std::same_as<Value, ColorInput>) {
+      if (value.texture.is_valid()) validate_id(value.texture, scene.textures, join_path(item, field.name), "textures");
+    } else if constexpr (std::same_as<Value, NodeIndex>) {
+      if (value != no_node && value >= index)
+        throw SceneError(join_path(item, field.name),
+                         "node " + std::to_string(value) + " does not come before node " + std::to_string(index));
+    }
+  });
+}
+
+void validate_materials(const Scene& scene) {
+  for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    const std::string item = entry("materials", i);
+    for (NodeIndex node = 0; node < material.nodes.size(); ++node) {
+      const std::string node_item = material.nodes.size() == 1 ? item : item + "." + entry("nodes", node);
+      std::visit([&](const auto& shader) { validate_shader(scene, shader, node, node_item); }, material.nodes[node]);
+    }
+    if (material.surface != no_node && material.surface >= material.nodes.size())
+      throw SceneError(item + ".surface", "node " + std::to_string(material.surface) + ", but the material has " +
+                                              std::to_string(material.nodes.size()) + " nodes");
+  }
+}
+
+std::vector<Bounds3f> validate_shapes(const Scene& scene) {
+  std::vector<Bounds3f> shape_bounds;
+  for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
+    validate(scene.shapes[i], entry("shapes", i));
+    shape_bounds.push_back(bounds(scene.shapes[i]));
+  }
+  return shape_bounds;
+}
+
+void validate_reach(const Bounds3f& world_bounds, const std::string& item) {
+  const float reach = std::max(max_component(abs(world_bounds.lower)), max_component(abs(world_bounds.upper)));
+  if (!world_bounds.is_empty() && !(reach <= largest_coordinate))
+    throw SceneError(item, "reaches out to " + number_text(reach) + " m, but no more than " +
+                               number_text(largest_coordinate) + " m can be rendered");
+}
+
+void validate_instances(const Scene& scene) {
+  const std::vector<Bounds3f> shape_bounds = validate_shapes(scene);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const std::string item = entry("instances", i);
+    validate_id(instance.shape, scene.shapes, item + ".shape", "shapes");
+    for (std::size_t slot = 0; slot < instance.materials.size(); ++slot)
+      if (const Id<Material> id = instance.materials[slot]; id.is_valid())
+        validate_id(id, scene.materials, item + "." + entry("materials", slot), "materials");
+    validate_transform(instance.object_to_world, item + ".transform");
+    validate_reach(transform_bounds(instance.object_to_world, shape_bounds[instance.shape.index]), item);
+  }
+}
+
+void validate_lights(const Scene& scene) {
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const std::string item = entry("lights", i);
+    std::visit([&](const auto& light) { validate_described(light, item); }, scene.lights[i]);
+    const auto* sun = std::get_if<SunLight>(&scene.lights[i]);
+    if (sun && length_squared(Vec3d(sun->direction)) == 0) throw SceneError(item + ".direction", "must not be zero");
+  }
+  validate_described(scene.environment, "environment");
+}
+
+template <class CameraKind>
+void validate_camera(const CameraKind& camera) {
+  validate_described(camera, "camera");
+  if (!(camera.window_min.x < camera.window_max.x && camera.window_min.y < camera.window_max.y))
+    throw SceneError("camera.window_max", "must be greater than window_min, in x and in y");
+  if (!(camera.clip_near < camera.clip_far)) throw SceneError("camera.clip_far", "must be greater than clip_near");
+}
+
+void validate_border(const RenderSettings& settings) {
+  const auto check = [](const char* name, std::int64_t begin, std::int64_t size, std::int64_t whole) {
+    if (begin + size > whole)
+      throw SceneError(std::string("settings.") + name, "the border ends at " + std::to_string(begin + size) +
+                                                            ", but the picture has " + std::to_string(whole) +
+                                                            " pixels");
+  };
+  check("border_width", settings.border_x, settings.border_width, settings.width);
+  check("border_height", settings.border_y, settings.border_height, settings.height);
+}
+
+void validate_settings(const RenderSettings& settings) {
+  validate_described(settings, "settings");
+  validate_described(settings.filter, "settings.filter");
+  validate_border(settings);
+  if (settings.passes.mask >> passes.size()) throw SceneError("settings.passes", "names a pass that does not exist");
+  if (!settings.passes.has(Pass::combined)) throw SceneError("settings.passes", "Combined must be among them");
+}
+
+}  // namespace
+
+void validate_description(const Scene& scene) {
+  validate_settings(scene.settings);
+  if (scene.camera) std::visit([](const auto& camera) { validate_camera(camera); }, *scene.camera);
+  validate_textures(scene);
+  validate_materials(scene);
+  validate_instances(scene);
+  validate_lights(scene);
+}
+
+void validate(const Scene& scene) {
+  validate_description(scene);
+  if (!scene.camera) throw SceneError("camera", "the scene has none");
+}
+
+}  // namespace basicrt
