@@ -26,7 +26,8 @@ struct SceneFileOptions {
 [[nodiscard]] Scene parse_scene(std::string_view json, const std::filesystem::path& folder, std::string_view name,
                                 Report& report, const SceneFileOptions& options = {});
 
-// One file with everything in it, numbers to the last bit: load_scene gives the same picture, byte for byte.
+// One file with everything in it, numbers to the last bit: load_scene gives the same picture, byte for byte. Throw SceneError
+// for what validate_description() refuses or a file that can't be written.
 void save_scene(const Scene& scene, const std::filesystem::path& path);
 [[nodiscard]] std::string scene_to_json(const Scene& scene);
 

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Materials: one shader, or shaders mixed and added.
+#include <array>
+#include <map>
+
+#include "io/described_json.h"
+#include "io/scene_reader.h"
+
+namespace basicrt {
+namespace {
+
+template <class Shader>
+constexpr int count_color_inputs() {
+  int count = 0;
+  for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>&) { count += std::same_as<Value, ColorInput>; });
+  return count;
+}
+
+// Appends the nodes of one material, each after those that it refers to.
+class MaterialReader {
+ public:
+  MaterialReader(const SceneReader& reader, Material& material) : reader_(reader), material_(material) {}
+
+  void read_material(const JsonValue& json) {
+    if (json.find("nodes"))
+      read_nodes(json);
+    else
+      material_.surface = read_shader(json);
+  }
+
+ private:
+  void read_nodes(const JsonValue& json) {
+    json.check_keys(std::array<std::string_view, 3>{"nodes", "surface", "name"});
+    read_optional(json, "name", material_.name);
+    const JsonValue nodes = json.require("nodes");
+    nodes.expect_array();
+    for (std::size_t i = 0; i < nodes.size(); ++i) entries_.push_back(read_shader(nodes.item(i)));
+    if (const auto surface = json.find("surface")) read_input(*surface, material_.surface);
+  }
+
+  NodeIndex read_shader(const JsonValue& json) {
+    return material_.add(read_variant<ShaderNode>(json, [&]<class Shader>(const JsonValue& object, Shader& shader) {
+      constexpr bool has_one_color = count_color_inputs<Shader>() == 1;
+      object.check_keys(has_one_color ? known_keys<Shader>({"texture_name"}) : known_keys<Shader>());
+      read_fields(object, shader, [&]<class Value>(const JsonValue& value, Value& out) {
+        if constexpr (std::same_as<Value, ColorInput>)
+          read_color(value, out);
+        else if constexpr (std::same_as<Value, NodeIndex>)
+          read_input(value, out);
+        else
+          read(value, out);
+      });
+      if constexpr (has_one_color) read_texture_name(object, shader);
+    }));
+  }
+
+  // A colour, or a texture's name.
+  void read_color(const JsonValue& value, ColorInput& out) const {
+    if (value.json().is_string())
+      out.texture = reader_.textures.resolve(value);
+    else
+      read(value, out.constant);
+  }
+
+  // The assignment's key for the texture of a shader's only colour.
+  template <class Shader>
+  void read_texture_name(const JsonValue& object, Shader& shader) const {
+    const auto texture_name = object.find("texture_name");
+    if (!texture_name) return;
+    for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
+      if constexpr (std::same_as<Value, ColorInput>) {
+        if (object.find(field.name)) texture_name->fail("give this or \"" + std::string(field.name) + "\", not both");
+        (shader.*field.member).texture = reader_.textures.resolve(*texture_name);
+      }
+    });
+  }
+
+  // What Mix, Add and the surface refer to: a shader, an earlier material's name, an earlier entry of "nodes", or null.
+  void read_input(const JsonValue& value, NodeIndex& out) {
+    if (value.json().is_null())
+      out = no_node;
+    else if (value.json().is_string())
+      out = copy_material(reader_.materials.resolve(value));
+    else if (value.json().is_number())
+      out = find_entry(value);
+    else
+      out = read_shader(value);
+  }
+
+  [[nodiscard]] NodeIndex find_entry(const JsonValue& value) const {
+    std::uint32_t entry = 0;
+    read(value, entry);
+    if (entry >= entries_.size()) value.fail("no node " + std::to_string(entry) + " comes before this");
+    return entries_[entry];
+  }
+
+  // Materials share no nodes, so each that is referred to is copied, once.
+  NodeIndex copy_material(Id<Material> id) {
+    const auto [copy, is_new] = copies_.try_emplace(id.index, no_node);
+    if (is_new) copy->second = append_nodes(material_, reader_.scene.materials[id]);
+    return copy->second;
+  }
+
+  const SceneReader& reader_;
+  Material& material_;
+  std::vector<NodeIndex> entries_;             // the nodes that the entries of "nodes" became
+  std::map<std::uint32_t, NodeIndex> copies_;  // by the other material's index
+};
+
+}  // namespace
+
+NodeIndex append_nodes(Material& material, const Material& other) {
+  const auto offset = static_cast<NodeIndex>(material.nodes.size());
+  const auto move_index = [&](NodeIndex& index) {
+    if (index != no_node) index += offset;
+  };
+  for (ShaderNode node : other.nodes) {
+    std::visit(
+        [&]<class Shader>(Shader& shader) {
+          for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
+            if constexpr (std::same_as<Value, NodeIndex>) move_index(shader.*field.member);
+          });
+        },
+        node);
+    material.add(node);
+  }
+  NodeIndex surface = other.surface;
+  move_index(surface);
+  return surface;
+}
+
+void read_materials(SceneReader& reader, const JsonValue& materials) {
+  materials.expect_object();
+  for (const auto& [name, json] : materials.json().items()) {
+    Material material{.name = name, .nodes = {}};
+    MaterialReader(reader, material).read_material(materials.member(name));
+    reader.materials.add(name, reader.scene.materials.append(std::move(material)));
+  }
+}
+
+}  // namespace basicrt

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Objects: shapes placed in the world, with materials and, for the assignment's area lights, emission.
+#include <array>
+#include <variant>
+
+#include "io/described_json.h"
+#include "io/ray_kinds.h"
+#include "io/scene_reader.h"
+
+namespace basicrt {
+namespace {
+
+constexpr std::array<std::string_view, 8> object_keys = {"name",      "material_name", "materials",  "transform",
+                                                         "translate", "light",         "visibility", "shape"};
+
+bool is_empty(const Shape& shape) {
+  const Mesh* mesh = std::get_if<Mesh>(&shape);
+  return mesh && mesh->triangles.empty();
+}
+
+Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
+  const auto name = object.find("shape");
+  if (!name) return read_shape(reader, object, object_keys);
+  object.check_keys(object_keys);
+  return reader.shapes.resolve(*name);
+}
+
+// p' = transform p + translate
+Transform read_placement(const JsonValue& object) {
+  Transform transform;
+  read_optional(object, "transform", transform);
+  Vec3f translate;
+  read_optional(object, "translate", translate);
+  for (std::size_t axis = 0; axis < 3; ++axis) transform.rows[axis][3] += translate[axis];
+  return transform;
+}
+
+std::vector<Id<Material>> read_material_slots(const SceneReader& reader, const JsonValue& object) {
+  const auto name = object.find("material_name"), names = object.find("materials");
+  if (name && names) name->fail("give this or \"materials\", not both");
+  if (name) return {reader.materials.resolve(*name)};
+  std::vector<Id<Material>> slots;
+  if (names) {
+    names->expect_array();
+    for (std::size_t i = 0; i < names->size(); ++i) {
+      const JsonValue slot = names->item(i);
+      slots.push_back(slot.json().is_null() ? Id<Material>{} : reader.materials.resolve(slot));
+    }
+  }
+  return slots;
+}
+
+std::uint32_t read_visibility(const JsonValue& names) {
+  names.expect_array();
+  std::uint32_t kinds = 0;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    kinds |= 1u << read_choice(names.item(i), ray_kind_names, "kind of ray");
+  return kinds;
+}
+
+// The object's own copy of a material, shining on the side of the normal as well. Where there was none, it is black.
+Id<Material> append_emissive(SceneReader& reader, Id<Material> base, const EmissionShader& emission) {
+  Material material;
+  NodeIndex reflecting = no_node;
+  if (base.is_valid()) {
+    material.name = reader.scene.materials[base].name;
+    reflecting = append_nodes(material, reader.scene.materials[base]);
+  }
+  const NodeIndex emitting = material.add(emission);
+  material.surface =
+      reflecting == no_node ? emitting : material.add(AddShader{.first = reflecting, .second = emitting});
+  return reader.scene.materials.append(std::move(material));
+}
+
+void read_area_light(SceneReader& reader, const JsonValue& light, std::vector<Id<Material>>& slots) {
+  light.check_keys(std::array<std::string_view, 2>{"type", "radiance"});
+  (void)read_choice(light.require("type"), std::array<std::string_view, 1>{"area"}, "light");
+  EmissionShader emission{.is_two_sided = false};
+  read_field(light.require("radiance"), emission, &EmissionShader::radiance);
+  if (slots.empty()) slots.emplace_back();
+  for (Id<Material>& slot : slots) slot = append_emissive(reader, slot, emission);
+}
+
+void read_object(SceneReader& reader, const JsonValue& object) {
+  Instance instance;
+  instance.shape = read_object_shape(reader, object);
+  read_optional(object, "name", instance.name);
+  instance.object_to_world = read_placement(object);
+  instance.materials = read_material_slots(reader, object);
+  if (const auto visibility = object.find("visibility")) instance.visibility = read_visibility(*visibility);
+  if (const auto light = object.find("light")) read_area_light(reader, *light, instance.materials);
+  if (is_empty(reader.scene.shapes[instance.shape]))
+    object.warn(reader.report, "skipped: the mesh has no triangles");
+  else
+    reader.scene.instances.append(std::move(instance));
+}
+
+}  // namespace
+
+void read_objects(SceneReader& reader, const JsonValue& objects) {
+  objects.expect_array();
+  for (std::size_t i = 0; i < objects.size(); ++i) read_object(reader, objects.item(i));
+}
+
+}  // namespace basicrt

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shapes: meshes from OBJ files or written out, and spheres.
+#include <array>
+#include <variant>
+
+#include "io/described_json.h"
+#include "io/obj.h"
+#include "io/scene_reader.h"
+
+namespace basicrt {
+namespace {
+
+// A flat array of numbers, as many as `Element` has for each.
+template <class Element, std::size_t count>
+std::vector<Element> read_elements(const JsonValue& object, std::string_view key) {
+  using Number = std::conditional_t<std::is_same_v<Element, std::array<std::uint32_t, 3>>, std::uint32_t, float>;
+  std::vector<Element> elements;
+  const auto json = object.find(key);
+  if (!json) return elements;
+  std::vector<Number> numbers;
+  read_numbers(*json, numbers);
+  if (numbers.size() % count != 0)
+    json->fail("must have a multiple of " + std::to_string(count) + " numbers, has " + std::to_string(numbers.size()));
+  elements.reserve(numbers.size() / count);
+  for (std::size_t i = 0; i < numbers.size(); i += count) {
+    if constexpr (count == 2)
+      elements.push_back(Element{numbers[i], numbers[i + 1]});
+    else
+      elements.push_back(Element{numbers[i], numbers[i + 1], numbers[i + 2]});
+  }
+  return elements;
+}
+
+Mesh read_inline_mesh(const JsonValue& object) {
+  (void)object.require("positions");
+  (void)object.require("triangles");
+  Mesh mesh{.positions = read_elements<Vec3f, 3>(object, "positions"),
+            .triangles = read_elements<std::array<std::uint32_t, 3>, 3>(object, "triangles"),
+            .corner_normals = read_elements<Vec3f, 3>(object, "corner_normals"),
+            .uvs = read_elements<Vec2f, 2>(object, "uvs"),
+            .material_slots = {}};
+  if (const auto slots = object.find("material_slots")) read_numbers(*slots, mesh.material_slots);
+  validate(mesh, object.path());
+  return mesh;
+}
+
+// Files that several shapes name are read once.
+Id<Shape> read_obj_shape(SceneReader& reader, const JsonValue& path_json) {
+  const std::filesystem::path path = reader.resolve_path(path_json).lexically_normal();
+  if (const auto known = reader.obj_shapes.find(path); known != reader.obj_shapes.end()) return known->second;
+  const Id<Shape> id = reader.scene.shapes.append(read_obj(path, reader.report));
+  reader.obj_shapes.emplace(path, id);
+  return id;
+}
+
+Id<Shape> read_mesh_shape(SceneReader& reader, const JsonValue& object) {
+  if (const auto path = object.find("path")) return read_obj_shape(reader, *path);
+  return reader.scene.shapes.append(read_inline_mesh(object));
+}
+
+Id<Shape> read_sphere_shape(SceneReader& reader, const JsonValue& object) {
+  Sphere sphere;
+  read_fields(object, sphere);
+  return reader.scene.shapes.append(sphere);
+}
+
+const std::vector<std::string_view> mesh_keys = {"type",           "path", "positions",     "triangles",
+                                                 "corner_normals", "uvs",  "material_slots"};
+
+struct ShapeKind {
+  std::string_view name;
+  std::vector<std::string_view> keys;
+  Id<Shape> (*read)(SceneReader&, const JsonValue&);
+};
+
+const std::array shape_kinds = {ShapeKind{"mesh", mesh_keys, read_mesh_shape},
+                                ShapeKind{Sphere::kind, known_keys<Sphere>(), read_sphere_shape}};
+
+}  // namespace
+
+Id<Shape> read_shape(SceneReader& reader, const JsonValue& object, std::span<const std::string_view> extra_keys) {
+  std::array<std::string_view, shape_kinds.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = shape_kinds[i].name;
+  const ShapeKind& kind = shape_kinds[read_choice(object.require("type"), names, "type")];
+  std::vector<std::string_view> keys = kind.keys;
+  keys.insert(keys.end(), extra_keys.begin(), extra_keys.end());
+  object.check_keys(keys);
+  return kind.read(reader, object);
+}
+
+void read_shapes(SceneReader& reader, const JsonValue& shapes) {
+  shapes.expect_object();
+  for (const auto& [name, json] : shapes.json().items())
+    reader.shapes.add(name, read_shape(reader, shapes.member(name), {}));
+}
+
+}  // namespace basicrt

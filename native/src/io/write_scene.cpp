@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A scene as one JSON text with everything in it. Reading it gives the same tables in the same order.
+#include <set>
+#include <variant>
+
+#include "io/described_json.h"
+#include "io/file.h"
+#include "io/ray_kinds.h"
+#include "io/scene_json.h"
+
+namespace basicrt {
+namespace {
+
+// Keys by which a table's entries are found again, all different.
+struct SceneKeys {
+  std::vector<std::string> textures, materials, shapes;
+};
+
+std::vector<std::string> numbered_keys(std::string_view stem, std::uint32_t count) {
+  std::vector<std::string> keys;
+  for (std::uint32_t i = 0; i < count; ++i) keys.push_back(std::string(stem) + std::to_string(i));
+  return keys;
+}
+
+// Their names, as far as they have names of their own.
+std::vector<std::string> material_keys(const Table<Material>& materials) {
+  std::set<std::string> taken;
+  for (std::uint32_t i = 0; i < materials.size(); ++i) taken.insert(materials[i].name);
+  taken.insert("");
+  std::vector<std::string> keys;
+  std::set<std::string> used = {""};
+  for (std::uint32_t i = 0; i < materials.size(); ++i) {
+    std::string key = materials[i].name;
+    if (used.contains(key)) {
+      key = "material" + std::to_string(i);
+      while (taken.contains(key)) key += "_";
+    }
+    used.insert(key);
+    taken.insert(key);
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+Json write_texture(const Texture& texture) {
+  Json json = std::visit([](const auto& kind) { return write_fields(kind); }, texture);
+  if (const auto* image_texture = std::get_if<ImageTexture>(&texture)) {
+    const Image& image = image_texture->image;
+    json["width"] = image.width;
+    json["height"] = image.height;
+    json["channels"] = image.channels;
+    json["pixels"] = write_array(image.pixels);
+  }
+  return json;
+}
+
+Json write_shader(const ShaderNode& node, const SceneKeys& keys) {
+  const auto write_input = [&]<class Value>(const Value& value) -> Json {
+    if constexpr (std::same_as<Value, ColorInput>)
+      return value.texture.is_valid() ? Json(keys.textures.at(value.texture.index)) : write(value.constant);
+    else if constexpr (std::same_as<Value, NodeIndex>)
+      return value == no_node ? Json(nullptr) : Json(value);
+    else
+      return write(value);
+  };
+  return std::visit([&](const auto& shader) { return write_fields(shader, write_input); }, node);
+}
+
+Json write_material(const Material& material, const std::string& key, const SceneKeys& keys) {
+  if (material.nodes.size() == 1 && material.surface == 0 && material.name == key)
+    return write_shader(material.nodes[0], keys);
+  Json json = Json::object();
+  if (material.name != key) json["name"] = material.name;
+  json["nodes"] = Json::array();
+  for (const ShaderNode& node : material.nodes) json["nodes"].push_back(write_shader(node, keys));
+  if (material.surface != no_node) json["surface"] = material.surface;
+  return json;
+}
+
+Json write_mesh(const Mesh& mesh) {
+  Json json = {{"type", "mesh"}};
+  json["positions"] = write_array(mesh.positions);
+  json["triangles"] = write_array(mesh.triangles);
+  if (!mesh.corner_normals.empty()) json["corner_normals"] = write_array(mesh.corner_normals);
+  if (!mesh.uvs.empty()) json["uvs"] = write_array(mesh.uvs);
+  if (!mesh.material_slots.empty()) json["material_slots"] = write_array(mesh.material_slots);
+  return json;
+}
+
+Json write_shape(const Shape& shape) {
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return write_mesh(*mesh);
+  return write_fields(std::get<Sphere>(shape));
+}
+
+Json write_instance(const Instance& instance, const SceneKeys& keys) {
+  Json json = Json::object();
+  if (!instance.name.empty()) json["name"] = instance.name;
+  json["shape"] = keys.shapes.at(instance.shape.index);
+  json["transform"] = write(instance.object_to_world);
+  if (!instance.materials.empty()) json["materials"] = Json::array();
+  for (const Id<Material> id : instance.materials)
+    json["materials"].push_back(id.is_valid() ? Json(keys.materials.at(id.index)) : Json(nullptr));
+  if (instance.visibility != ray_all) {
+    json["visibility"] = Json::array();
+    for (std::size_t bit = 0; bit < ray_kind_names.size(); ++bit)
+      if ((instance.visibility >> bit) & 1u) json["visibility"].push_back(ray_kind_names[bit]);
+  }
+  return json;
+}
+
+Json write_settings(const RenderSettings& settings) {
+  Json json = write_fields(settings);
+  json["filter"] = write_fields(settings.filter);
+  json["passes"] = Json::array();
+  for (const PassInfo& info : passes)
+    if (settings.passes.has(info.pass)) json["passes"].push_back(info.name);
+  return json;
+}
+
+}  // namespace
+
+std::string scene_to_json(const Scene& scene) {
+  validate_description(scene);
+  const SceneKeys keys{.textures = numbered_keys("texture", scene.textures.size()),
+                       .materials = material_keys(scene.materials),
+                       .shapes = numbered_keys("shape", scene.shapes.size())};
+  const auto write_kind = [](const auto& kind) { return write_fields(kind); };
+
+  Json json = {{"settings", write_settings(scene.settings)}};
+  if (scene.camera) json["camera"] = std::visit(write_kind, *scene.camera);
+  json["environment"] = write_fields(scene.environment);
+  json["textures"] = Json::object();
+  for (std::uint32_t i = 0; i < scene.textures.size(); ++i)
+    json["textures"][keys.textures[i]] = write_texture(scene.textures[i]);
+  json["materials"] = Json::object();
+  for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
+    json["materials"][keys.materials[i]] = write_material(scene.materials[i], keys.materials[i], keys);
+  json["shapes"] = Json::object();
+  for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) json["shapes"][keys.shapes[i]] = write_shape(scene.shapes[i]);
+  json["objects"] = Json::array();
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+    json["objects"].push_back(write_instance(scene.instances[i], keys));
+  json["lights"] = Json::array();
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
+    json["lights"].push_back(std::visit(write_kind, scene.lights[i]));
+  return to_text(json);
+}
+
+void save_scene(const Scene& scene, const std::filesystem::path& path) {
+  const std::string text = scene_to_json(scene);
+  NewFile file(path);
+  file.stream() << text;
+  file.commit();
+}
+
+}  // namespace basicrt
