@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that differs between Blender versions, and whether the native module fits the add-on."""
+
+from __future__ import annotations
+
+import importlib
+import re
+import sys
+import tomllib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+# Datablocks that carry a shader node tree.
+Shaded = bpy.types.Material | bpy.types.World | bpy.types.Light
+
+# Blender's own panels that suit this engine but name only the engines that Blender carries. Not
+# every version has every one of them.
+SHARED_PANELS = (
+    "DATA_PT_EEVEE_light",
+    "EEVEE_MATERIAL_PT_context_material",
+    "EEVEE_MATERIAL_PT_surface",
+    "EEVEE_WORLD_PT_surface",
+    "VIEWLAYER_PT_override",
+)
+
+
+class NativeModuleError(RuntimeError):
+    """The compiled part of BasicRT is missing, broken or of another version."""
+
+
+def addon_version() -> str:
+    """The version of this add-on, from its manifest."""
+    manifest = Path(__file__).with_name("blender_manifest.toml")
+    return str(tomllib.loads(manifest.read_text(encoding="utf-8"))["version"])
+
+
+def check_native() -> str:
+    """The native module's version, which is the add-on's. Raises NativeModuleError.
+
+    Whoever imports a module that needs `basicrt` calls this first, so that Blender can always
+    register the add-on and tell the user what is wrong.
+    """
+    try:
+        native: str = importlib.import_module("basicrt").native_version()
+    except (ImportError, AttributeError) as error:
+        python = f"{sys.version_info.major}.{sys.version_info.minor}"
+        raise NativeModuleError(
+            f"the native module `basicrt` cannot be imported in Python {python} ({error}); "
+            "install the extension again from a zip made for this Blender"
+        ) from error
+    if native != addon_version():
+        raise NativeModuleError(
+            f"the native module `basicrt` is version {native}, but the add-on is "
+            f"{addon_version()}; install the extension again and restart Blender"
+        )
+    return native
+
+
+def node_tree(owner: Shaded) -> bpy.types.ShaderNodeTree | None:
+    """The shader nodes that are in use, or None.
+
+    From 5.0 on a material or world always has nodes; before, `use_nodes` says so. Lights kept
+    their switch, under the same name, until it was deprecated after 5.0.
+    """
+    data: Any = owner
+    first_without_switch = (5, 1, 0) if isinstance(owner, bpy.types.Light) else (5, 0, 0)
+    is_in_use = bpy.app.version >= first_without_switch or data.use_nodes
+    return data.node_tree if is_in_use else None
+
+
+@contextmanager
+def inlined_nodes(owner: Shaded) -> Iterator[bpy.types.ShaderNodeTree | None]:
+    """The nodes in use, with groups and zones dissolved where Blender can do that (5.0 and later).
+
+    The tree lives only inside the `with`: what Blender makes for it is freed with its owner.
+    """
+    tree = node_tree(owner)
+    data: Any = owner
+    if tree is None or not hasattr(owner, "inline_shader_nodes"):
+        yield tree
+    else:
+        inlined = data.inline_shader_nodes()
+        yield inlined.node_tree
+
+
+def node_name(node: bpy.types.Node) -> str:
+    """The name that the user knows: inlined nodes have a number before it."""
+    return re.sub(r"^\d+_", "", node.name) if bpy.app.version >= (5, 0, 0) else node.name
+
+
+def view_layer_world(
+    b_scene: bpy.types.Scene, b_view_layer: bpy.types.ViewLayer
+) -> bpy.types.World | None:
+    """The scene's world, or the view layer's own, which exists from 4.3 on."""
+    return getattr(b_view_layer, "world_override", None) or b_scene.world
+
+
+def light_strength(light: bpy.types.Light) -> tuple[float, float, float]:
+    """energy * colour, with the exposure and temperature that lamps have from 4.5 on."""
+    values: Any = light
+    scale = values.energy * 2.0 ** getattr(values, "exposure", 0.0)
+    color = [scale * channel for channel in values.color]
+    if getattr(values, "use_temperature", False):
+        color = [a * b for a, b in zip(color, values.temperature_color, strict=True)]
+    return color[0], color[1], color[2]
+
+
+def is_light_normalized(light: bpy.types.Light) -> bool:
+    """Whether a lamp's strength is its power whatever its size; always so before 4.5."""
+    return bool(getattr(light, "normalize", True))
+
+
+def peak_memory_megabytes() -> float | None:
+    """The most memory this process has had, or None where the system does not tell."""
+    try:
+        resource = importlib.import_module("resource")
+    except ImportError:  # Windows
+        return None
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return float(peak) / (2**20 if sys.platform == "darwin" else 2**10)

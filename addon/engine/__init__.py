@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The render engine BASICRT."""
+
+from __future__ import annotations
+
+import bpy
+
+from .final import BasicRTRenderEngine
+
+__all__ = ["BasicRTRenderEngine", "register", "unregister"]
+
+
+def register() -> None:
+    """Add the engine to Blender."""
+    bpy.utils.register_class(BasicRTRenderEngine)
+
+
+def unregister() -> None:
+    """Take it away: Blender 4.2 and 4.5 do not end properly with an engine left registered."""
+    bpy.utils.unregister_class(BasicRTRenderEngine)

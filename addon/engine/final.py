@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The RenderEngine: exports inside Blender's lock, then hands out tiles until done or cancelled."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from .. import compat
+from ..properties import settings_of
+from ..report import Report, caught, show_warnings, summary
+from .result import ResultWriter, complete_without_pixels
+
+if TYPE_CHECKING:
+    import basicrt
+
+# How often Blender is told of progress, and asked whether to stop.
+STATUS_SECONDS = 0.5
+POLL_SECONDS = 0.05
+
+
+class BasicRTRenderEngine(bpy.types.RenderEngine):
+    """Renders with BasicRT."""
+
+    bl_idname = "BASICRT"
+    bl_label = "BasicRT"
+    bl_use_preview = False
+    bl_use_postprocess = True
+    bl_use_eevee_viewport = True  # for Material Preview
+    bl_use_shading_nodes_custom = False  # Blender's own nodes, in its own menus
+
+    # When set, the next render writes its scene there instead of tracing it: only a render has a
+    # dependency graph with the render's own visibility and modifiers.
+    export_path: Path | None = None
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        """Blender calls it twice from 4.5 on."""
+        super().__init__(*args, **kwargs)
+        self.scene: basicrt.Scene | None = None
+        self.failure: str | None = None
+
+    def update(self, data: Any = None, depsgraph: Any = None) -> None:
+        """Blender's callback, with scene data locked: export everything a render needs."""
+        self.scene, self.failure = None, None
+        with caught(self._remember_failure):
+            self._export(depsgraph)
+
+    def render(self, depsgraph: Any) -> None:  # type: ignore[override]
+        """Blender's callback: render one view layer."""
+        scene, self.scene = self.scene, None
+        with caught(self._fail):
+            if scene is None:
+                self._fail(self.failure or "BasicRT: the scene was not exported")
+            elif BasicRTRenderEngine.export_path is not None:
+                scene.save(str(BasicRTRenderEngine.export_path))
+                complete_without_pixels(self)
+            else:
+                self._trace(scene, depsgraph)
+
+    def update_render_passes(
+        self, scene: bpy.types.Scene | None = None, renderlayer: bpy.types.ViewLayer | None = None
+    ) -> None:
+        """Blender's callback: name the passes, for the result and the compositor."""
+        if scene is None or renderlayer is None:
+            return
+        try:
+            compat.check_native()
+        except compat.NativeModuleError:  # render() tells of it
+            self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
+            return
+        from ..export.settings import enabled_passes
+
+        kinds: dict[str, Any] = {"RGBA": "COLOR", "XYZ": "VECTOR", "Z": "VALUE"}
+        for info in enabled_passes(renderlayer):
+            channels = info.channels
+            self.register_pass(
+                scene, renderlayer, info.name, len(channels), channels, kinds[channels]
+            )
+
+    def _remember_failure(self, message: str) -> None:
+        """update() can't end a render: render() is called after it and does."""
+        self.failure = message
+
+    def _fail(self, message: str) -> None:
+        """End the render without a picture: Blender writes no file and exits with status 1.
+
+        `report` does that, `error_set` shows the message beside the picture. A render without one
+        complete result would crash Blender when it writes an EXR.
+        """
+        complete_without_pixels(self)
+        self.report({"ERROR"}, message)
+        self.error_set(message)
+
+    def _export(self, depsgraph: Any) -> None:
+        """From Blender's data to a scene, and the warnings to their panel."""
+        compat.check_native()
+        from ..sync import scene_sync
+
+        self.update_stats("", "Exporting")
+        report = Report()
+        b_camera = self.camera_override or depsgraph.scene.camera
+        evaluated = b_camera.evaluated_get(depsgraph) if b_camera else None
+        self.scene = scene_sync.export(depsgraph, evaluated, report)
+        show_warnings(report)
+        if report.warnings:
+            self.report({"WARNING"}, summary(report))
+
+    def _trace(self, scene: basicrt.Scene, depsgraph: Any) -> None:
+        """Pull tiles until there are no more or the user cancels."""
+        import basicrt
+
+        b_scene = depsgraph.scene
+        self.update_stats("", "Building trees")
+        tile_size = settings_of(b_scene).tile_size
+        with basicrt.Session(scene, threads=b_scene.render.threads, tile_size=tile_size) as session:
+            writer = ResultWriter(self, depsgraph.view_layer.name, session.rect)
+            next_status = 0.0
+            for tile in session.tiles(poll_seconds=POLL_SECONDS):
+                if tile is not None:
+                    writer.write(tile)
+                if self.test_break():
+                    session.stop()
+                    break
+                if time.monotonic() >= next_status:
+                    next_status = time.monotonic() + STATUS_SECONDS
+                    self._show_status(session.progress)
+            if not session.is_stopped:
+                self._show_status(session.progress)
+        writer.finish()
+
+    def _show_status(self, progress: basicrt.Progress) -> None:
+        """Progress bar, status line and memory."""
+        self.update_progress(progress.fraction)
+        rate = progress.samples_per_second / 1e6
+        remaining = time.strftime("%H:%M:%S", time.gmtime(progress.remaining_seconds))
+        self.update_stats("", f"{rate:.2f} M samples/s | Remaining {remaining}")
+        peak = compat.peak_memory_megabytes()
+        if peak is not None:
+            self.update_memory_stats(memory_used=peak, memory_peak=peak)

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tiles into Blender's Render Result: the one place that knows its pixel order."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+if TYPE_CHECKING:
+    import basicrt
+
+
+class ResultWriter:
+    """Writes one view layer.
+
+    Blender's pixels are float32, row 0 at the bottom like ours; its coordinates count from the
+    lower left corner of the render border, ours from the whole picture's.
+    """
+
+    def __init__(
+        self, engine: bpy.types.RenderEngine, layer: str, rect: tuple[int, int, int, int]
+    ) -> None:
+        self._engine = engine
+        self._layer = layer
+        self._left, self._lower = rect[0], rect[1]
+        self._is_empty = True
+
+    def write(self, tile: basicrt.Tile) -> None:
+        """Show a finished tile."""
+        result: Any = self._engine.begin_result(
+            tile.x - self._left, tile.y - self._lower, tile.width, tile.height, layer=self._layer
+        )
+        if result is None:  # outside of what Blender asks for
+            return
+        for layer in result.layers:
+            for name in tile.passes:
+                b_pass = layer.passes.get(name)
+                if b_pass is not None:
+                    # Blender cuts off what lies outside of its picture.
+                    pixels = tile[name][: result.resolution_y, : result.resolution_x]
+                    b_pass.rect.foreach_set(np.ascontiguousarray(pixels).ravel())
+        self._engine.end_result(result)
+        self._is_empty = False
+
+    def finish(self) -> None:
+        """A render needs one complete result, even a cancelled one."""
+        if self._is_empty:
+            complete_without_pixels(self._engine)
+
+
+def complete_without_pixels(engine: bpy.types.RenderEngine) -> None:
+    """End a render that has no picture."""
+    result = engine.begin_result(0, 0, 1, 1)
+    if result is not None:
+        engine.end_result(result)

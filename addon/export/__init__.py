@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Converts single Blender datablocks into BasicRT's; each module says how for one kind."""

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials, and which of them an object's mesh has in its slots."""
+
+from __future__ import annotations
+
+import basicrt
+import bpy
+
+from ..nodes import translate_surface
+from ..report import Report
+
+
+def key(b_material: bpy.types.Material) -> int:
+    """What tells materials apart; the same for an original and its evaluated copy."""
+    return b_material.session_uid
+
+
+def convert(b_material: bpy.types.Material, report: Report) -> basicrt.Material:
+    """The surface of a material."""
+    return translate_surface(b_material, report)
+
+
+def slots(b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> list[bpy.types.Material | None]:
+    """The material of each slot: the evaluated mesh's, unless the object's slot has its own."""
+    materials: list[bpy.types.Material | None] = list(b_mesh.materials)
+    for index, slot in enumerate(b_object.material_slots[: len(materials)]):
+        if slot.link == "OBJECT" and slot.material is not None:
+            materials[index] = slot.material
+    return materials

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Evaluated Blender meshes to triangles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import basicrt
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+Integers = NDArray[np.int32]
+
+
+def key(b_mesh: bpy.types.Mesh) -> int:
+    """What tells evaluated meshes apart during one export; objects that share data share it."""
+    return b_mesh.as_pointer()
+
+
+def convert(b_mesh: bpy.types.Mesh) -> basicrt.Mesh | None:
+    """Triangulated copy of an evaluated mesh, None where it has no faces.
+
+    positions (V, 3) float32, object space, metres; triangles (T, 3) int32; corner normals (T, 3, 3)
+    float32, none where every face is flat; uvs (T, 3, 2) float32 of the layer that is active for
+    rendering; material slots (T,) int32. Holds no reference to `b_mesh`. Raises basicrt.SceneError
+    for numbers that are not finite.
+    """
+    b_mesh.calc_loop_triangles()
+    triangle_count = len(b_mesh.loop_triangles)
+    if triangle_count == 0:
+        return None
+    corners = np.empty(triangle_count * 3, np.int32)  # of each triangle, among the mesh's corners
+    b_mesh.loop_triangles.foreach_get("loops", corners)
+    return basicrt.Mesh(
+        _attribute(b_mesh, "position", "vector", 3),
+        _attribute(b_mesh, ".corner_vert", "value", 1)[corners].reshape(-1, 3),
+        corner_normals=_corner_normals(b_mesh, corners),
+        uvs=_uvs(b_mesh, corners),
+        material_slots=_material_slots(b_mesh),
+    )
+
+
+def _attribute(b_mesh: bpy.types.Mesh, name: str, member: str, width: int) -> NDArray[Any]:
+    """A mesh attribute as (N, width), or (N,) where the width is 1: float32 or int32."""
+    attribute: Any = b_mesh.attributes[name]
+    return _read(attribute.data, member, width, np.int32 if member == "value" else np.float32)
+
+
+def _read(collection: Any, member: str, width: int, dtype: type) -> NDArray[Any]:
+    """One member of each item."""
+    values: NDArray[Any] = np.empty(len(collection) * width, dtype)
+    collection.foreach_get(member, values)
+    return values if width == 1 else values.reshape(-1, width)
+
+
+def _corner_normals(b_mesh: bpy.types.Mesh, corners: Integers) -> Floats | None:
+    """(T, 3, 3), or None for a mesh that is flat all over."""
+    if b_mesh.normals_domain == "FACE":
+        return None
+    normals: Floats = _read(b_mesh.corner_normals, "vector", 3, np.float32)
+    return normals[corners].reshape(-1, 3, 3)
+
+
+def _uvs(b_mesh: bpy.types.Mesh, corners: Integers) -> Floats | None:
+    """(T, 3, 2), or None for a mesh without uv layers."""
+    layer = next((layer for layer in b_mesh.uv_layers if layer.active_render), None)
+    if layer is None:
+        return None
+    uvs: Floats = _read(layer.uv, "vector", 2, np.float32)
+    return uvs[corners].reshape(-1, 3, 2)
+
+
+def _material_slots(b_mesh: bpy.types.Mesh) -> Integers | None:
+    """(T,), or None where every face has the first slot: Blender leaves the attribute out then."""
+    if "material_index" not in b_mesh.attributes:
+        return None
+    faces: Integers = _read(b_mesh.loop_triangle_polygons, "value", 1, np.int32)
+    slots: Integers = _attribute(b_mesh, "material_index", "value", 1)[faces]
+    return np.maximum(slots, 0)

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A scene's and a view layer's render settings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import basicrt
+import bpy
+
+from ..properties import settings_of
+from ..report import Report
+from .camera import resolution
+
+# Native pass -> the view layer's switch; Combined has none, it is always made.
+_PASS_SWITCHES = {"Depth": "use_pass_z", "Normal": "use_pass_normal"}
+
+
+@dataclass(frozen=True)
+class Border:
+    """The pixels that are rendered: lower left corner and size."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+
+def border(b_render: bpy.types.RenderSettings) -> Border:
+    """The render border in pixels as Blender rounds it, or the whole picture."""
+    width, height = resolution(b_render)
+    if not b_render.use_border:
+        return Border(0, 0, width, height)
+    left, right = int(b_render.border_min_x * width), int(b_render.border_max_x * width)
+    lower, upper = int(b_render.border_min_y * height), int(b_render.border_max_y * height)
+    return Border(left, lower, right - left, upper - lower)
+
+
+def enabled_passes(b_view_layer: bpy.types.ViewLayer) -> list[basicrt.PassInfo]:
+    """The rows of the table of passes that a view layer asks for."""
+    return [
+        info
+        for info in basicrt.passes()
+        if info.name not in _PASS_SWITCHES or getattr(b_view_layer, _PASS_SWITCHES[info.name])
+    ]
+
+
+def convert(
+    b_scene: bpy.types.Scene,
+    b_view_layer: bpy.types.ViewLayer,
+    settings: basicrt.RenderSettings,
+    report: Report,
+) -> None:
+    """Fill in `settings`."""
+    b_render = b_scene.render
+    own = settings_of(b_scene)
+    rectangle = border(b_render)
+    settings.width, settings.height = resolution(b_render)
+    settings.border_x, settings.border_y = rectangle.x, rectangle.y
+    settings.border_width, settings.border_height = rectangle.width, rectangle.height
+
+    settings.samples = b_view_layer.samples or own.samples
+    settings.seed = own.seed
+    settings.max_bounces = own.max_bounces
+    settings.diffuse_bounces = own.diffuse_bounces
+    settings.glossy_bounces = own.glossy_bounces
+    settings.transmission_bounces = own.transmission_bounces
+    settings.transparent_bounces = own.transparent_bounces
+    settings.bvh_builder = own.bvh_builder.lower()
+
+    settings.filter_type = own.filter_type.lower()
+    settings.filter_radius = 0.5 if own.filter_type == "BOX" else own.filter_width
+    settings.exposure = own.film_exposure
+    settings.film_transparent = b_render.film_transparent
+    settings.passes = [info.name for info in enabled_passes(b_view_layer)]
+
+    item = f'scene "{b_scene.name}"'
+    if b_render.use_motion_blur:
+        report.warn(item, "motion blur is not supported: everything stands still")
+    if b_render.use_multiview:
+        report.warn(item, "stereoscopy is not supported: every view is the same")

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Blender node as the translating functions see it: inputs by identifier, as numbers or shaders."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import basicrt
+import bpy
+
+from .. import compat
+from ..report import Report
+from .graph import Groups, Place, find_socket, trace
+
+Color = tuple[float, float, float]
+NodeIndex = int | None
+ShaderFunction = Callable[["NodeView"], NodeIndex]
+ValueFunction = Callable[["NodeView"], float | Color]
+
+# bl_idname -> the function that translates such a node.
+SHADERS: dict[str, ShaderFunction] = {}
+# bl_idname -> the function that gives the value of a node's only output, where that is constant.
+VALUES: dict[str, ValueFunction] = {}
+
+
+def shader(*bl_idnames: str) -> Callable[[ShaderFunction], ShaderFunction]:
+    """Decorates the function that translates these nodes."""
+
+    def register(function: ShaderFunction) -> ShaderFunction:
+        SHADERS.update(dict.fromkeys(bl_idnames, function))
+        return function
+
+    return register
+
+
+def value(*bl_idnames: str) -> Callable[[ValueFunction], ValueFunction]:
+    """Decorates the function that gives these nodes' value."""
+
+    def register(function: ValueFunction) -> ValueFunction:
+        VALUES.update(dict.fromkeys(bl_idnames, function))
+        return function
+
+    return register
+
+
+@dataclass
+class Translation:
+    """A material in the making."""
+
+    item: str  # what warnings name: `material "Glass"`
+    report: Report
+    material: basicrt.Material
+    # Nodes that are done: one node may feed several others.
+    done: dict[tuple[int, ...], NodeIndex] = field(default_factory=dict)
+
+    def warn(self, message: str) -> None:
+        """Tell of something that is not as in Blender."""
+        self.report.warn(self.item, message)
+
+    def shader_at(self, place: Place) -> NodeIndex:
+        """The shader that arrives at an input."""
+        source = trace(place)
+        if not source.socket.is_output:
+            return None
+        node: Any = source.socket.node
+        address = tuple(n.as_pointer() for n in (*source.groups, node))
+        if address not in self.done:
+            self.done[address] = self._translate(NodeView(node, source.groups, self), place)
+        return self.done[address]
+
+    def _translate(self, view: NodeView, place: Place) -> NodeIndex:
+        """The shader that a node makes; a colour shines, as Blender has it."""
+        if view.bl_idname in SHADERS:
+            return SHADERS[view.bl_idname](view)
+        if view.bl_idname in VALUES:
+            return view.add(
+                basicrt.EmissionShader(radiance=positive(as_color(view.output_value())))
+            )
+        self.warn(f"{view.title} is not supported: drawn as diffuse grey")
+        return view.add(basicrt.DiffuseShader(color=(0.8, 0.8, 0.8), twosided=True))
+
+
+@dataclass(frozen=True)
+class NodeView:
+    """One node of a tree that is being translated."""
+
+    node: bpy.types.Node
+    groups: Groups
+    translation: Translation
+
+    @property
+    def bl_idname(self) -> str:
+        """The node's kind."""
+        return self.node.bl_idname
+
+    @property
+    def title(self) -> str:
+        """How warnings call it."""
+        return f'node "{compat.node_name(self.node)}"'
+
+    def warn(self, message: str) -> None:
+        """Tell of something about this node that is not as in Blender."""
+        self.translation.warn(f"{self.title}: {message}")
+
+    def add(self, made: Any) -> int:
+        """Append a shader to the material."""
+        return int(self.translation.material.add(made))
+
+    def output_value(self) -> float | Color:
+        """What a node of VALUES puts out."""
+        return VALUES[self.bl_idname](self)
+
+    def number(self, identifier: str, lowest: float = 0.0, highest: float = math.inf) -> float:
+        """The value of an input, within limits beyond which Blender's own renderers don't go."""
+        return min(max(as_number(self._value(identifier)), lowest), highest)
+
+    def color(self, identifier: str) -> Color:
+        """A colour that reflects or lets through: each channel in [0, 1]."""
+        color = as_color(self._value(identifier))
+        if max(color) > 1.0:
+            self.warn(f"{identifier} reflects more light than it receives: limited to 1")
+        return unit(color)
+
+    def light(self, identifier: str) -> Color:
+        """A colour that shines: at least 0."""
+        return positive(as_color(self._value(identifier)))
+
+    def shader(self, identifier: str) -> NodeIndex:
+        """The shader at an input, None where nothing is linked."""
+        socket = find_socket(self.node.inputs, identifier)
+        return self.translation.shader_at(Place(socket, self.groups)) if socket else None
+
+    def ignore(self, **neutral: float | Color | None) -> None:
+        """Warn of inputs that have an effect here but not in BasicRT.
+
+        Underscores stand for spaces; None means that only a link has an effect. An input that this
+        Blender's node doesn't have is passed over.
+        """
+        for name, harmless in neutral.items():
+            identifier = name.replace("_", " ")
+            socket = find_socket(self.node.inputs, identifier)
+            if socket is None:
+                continue
+            source = trace(Place(socket, self.groups)).socket
+            if source.is_output or (harmless is not None and _raw_value(source) != harmless):
+                self.warn(f"{identifier} is not supported and left out")
+
+    def _value(self, identifier: str) -> float | Color:
+        """An input's constant value; its own, with a warning, where the link can't be evaluated."""
+        socket = find_socket(self.node.inputs, identifier)
+        if socket is None:
+            raise KeyError(f"{self.bl_idname} has no input {identifier}")
+        source = trace(Place(socket, self.groups))
+        if not source.socket.is_output:
+            return _raw_value(source.socket)
+        node: Any = source.socket.node
+        if node.bl_idname in VALUES:
+            return NodeView(node, source.groups, self.translation).output_value()
+        self.warn(
+            f'{identifier} is linked to "{compat.node_name(node)}", which is not supported: its own value is used'
+        )
+        return _raw_value(socket)
+
+
+def _raw_value(socket: Any) -> float | Color:
+    """A socket's default_value; a colour without its alpha."""
+    raw = socket.default_value
+    if isinstance(raw, (int, float)):
+        return float(raw)
+    return float(raw[0]), float(raw[1]), float(raw[2])
+
+
+def as_number(value: float | Color) -> float:
+    """As Blender converts a colour to a number: its luminance (Rec. 709)."""
+    if isinstance(value, float):
+        return value
+    return 0.2126 * value[0] + 0.7152 * value[1] + 0.0722 * value[2]
+
+
+def as_color(value: float | Color) -> Color:
+    """As Blender converts a number to a colour: grey."""
+    return (value, value, value) if isinstance(value, float) else value
+
+
+def positive(color: Color) -> Color:
+    """Without negative channels."""
+    return max(color[0], 0.0), max(color[1], 0.0), max(color[2], 0.0)
+
+
+def unit(color: Color) -> Color:
+    """With each channel in [0, 1]."""
+    red, green, blue = positive(color)
+    return min(red, 1.0), min(green, 1.0), min(blue, 1.0)
+
+
+def scaled(color: Color, factor: float) -> Color:
+    """The colour times a number."""
+    return color[0] * factor, color[1] * factor, color[2] * factor

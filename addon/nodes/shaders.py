@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The shader nodes: each function translates one, and tells what of it BasicRT can't draw."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import basicrt
+
+from .node_view import NodeIndex, NodeView, scaled, shader
+
+WHITE = (1.0, 1.0, 1.0)
+
+
+def _check_distribution(view: NodeView, *supported: str) -> None:
+    """Warn of microfacet distributions that are drawn as GGX."""
+    node: Any = view.node
+    if view.number("Roughness") > 0.0 and node.distribution not in supported:
+        view.warn(f"distribution {node.distribution} is drawn as GGX")
+
+
+@shader("ShaderNodeBsdfDiffuse")
+def diffuse(view: NodeView) -> NodeIndex:
+    """Lambert's, both sides."""
+    view.ignore(Roughness=0.0, Normal=None)
+    return view.add(basicrt.DiffuseShader(color=view.color("Color"), twosided=True))
+
+
+@shader("ShaderNodeBsdfAnisotropic")  # the Glossy BSDF's name inside Blender
+def glossy(view: NodeView) -> NodeIndex:
+    """A tinted mirror, rough by GGX."""
+    _check_distribution(view, "GGX", "MULTI_GGX")
+    view.ignore(Anisotropy=0.0, Normal=None, Tangent=None)
+    return view.add(
+        basicrt.GlossyShader(color=view.color("Color"), roughness=view.number("Roughness", 0, 1))
+    )
+
+
+@shader("ShaderNodeBsdfGlass")
+def glass(view: NodeView) -> NodeIndex:
+    """Fresnel reflection and refraction, both tinted."""
+    _check_distribution(view, "GGX", "MULTI_GGX")
+    view.ignore(Normal=None, Thin_Film_Thickness=0.0)
+    color = view.color("Color")
+    return view.add(
+        basicrt.GlassShader(
+            R=color,
+            T=color,
+            eta=view.number("IOR", 1e-5),
+            roughness=view.number("Roughness", 0, 1),
+        )
+    )
+
+
+@shader("ShaderNodeBsdfRefraction")
+def refraction(view: NodeView) -> NodeIndex:
+    """Refraction alone."""
+    _check_distribution(view, "GGX")
+    view.ignore(Normal=None)
+    return view.add(
+        basicrt.RefractionShader(
+            color=view.color("Color"),
+            eta=view.number("IOR", 1e-5),
+            roughness=view.number("Roughness", 0, 1),
+        )
+    )
+
+
+@shader("ShaderNodeBsdfTransparent")
+def transparent(view: NodeView) -> NodeIndex:
+    """Straight through."""
+    return view.add(basicrt.TransparentShader(color=view.color("Color")))
+
+
+@shader("ShaderNodeEmission")
+def emission(view: NodeView) -> NodeIndex:
+    """Shines on both sides."""
+    radiance = scaled(view.light("Color"), view.number("Strength"))
+    return view.add(basicrt.EmissionShader(radiance=radiance, twosided=True))
+
+
+@shader("ShaderNodeMixShader")
+def mix(view: NodeView) -> NodeIndex:
+    """The first where the factor is 0, the second where it is 1."""
+    first, second = view.shader("Shader"), view.shader("Shader_001")
+    factor = view.number("Fac", 0, 1)
+    return view.add(basicrt.MixShader(factor=factor, first=first, second=second))
+
+
+@shader("ShaderNodeAddShader")
+def add(view: NodeView) -> NodeIndex:
+    """Both at once."""
+    first, second = view.shader("Shader"), view.shader("Shader_001")
+    return view.add(basicrt.AddShader(first=first, second=second))
+
+
+@shader("ShaderNodeBsdfPrincipled")
+def principled(view: NodeView) -> NodeIndex:
+    """Diffuse, metal and glass under one Fresnel coat."""
+    view.ignore(
+        Subsurface_Weight=0.0,
+        Coat_Weight=0.0,
+        Sheen_Weight=0.0,
+        Anisotropic=0.0,
+        Diffuse_Roughness=0.0,
+        Specular_Tint=WHITE,
+        Thin_Film_Thickness=0.0,
+        Thin_Wall=0.0,
+        Normal=None,
+    )
+    ior = view.number("IOR")
+    if ior < 1.0:
+        view.warn("an IOR below 1 is drawn as 1")
+    return view.add(
+        basicrt.PrincipledShader(
+            base_color=view.color("Base Color"),
+            metallic=view.number("Metallic", 0, 1),
+            roughness=view.number("Roughness", 0, 1),
+            ior=max(ior, 1.0),
+            transmission=view.number("Transmission Weight", 0, 1),
+            specular_ior_level=view.number("Specular IOR Level", 0, 1),
+            emission=scaled(view.light("Emission Color"), view.number("Emission Strength")),
+            alpha=view.number("Alpha", 0, 1),
+        )
+    )
+
+
+# ---- drawn with something similar ----------------------------------------------------------------
+
+
+@shader(
+    "ShaderNodeSubsurfaceScattering",
+    "ShaderNodeBsdfSheen",
+    "ShaderNodeBsdfToon",
+    "ShaderNodeBsdfTranslucent",
+    "ShaderNodeBsdfHair",
+    "ShaderNodeBsdfHairPrincipled",
+)
+def diffuse_instead(view: NodeView) -> NodeIndex:
+    """Shaders that spread light widely."""
+    view.warn("not supported: drawn as a Diffuse BSDF")
+    return view.add(basicrt.DiffuseShader(color=view.color("Color"), twosided=True))
+
+
+@shader("ShaderNodeBsdfMetallic")
+def metallic(view: NodeView) -> NodeIndex:
+    """The Metallic BSDF of 4.3 and later, without its edge tint or measured indices."""
+    view.warn("not supported: drawn as a Glossy BSDF")
+    return view.add(
+        basicrt.GlossyShader(
+            color=view.color("Base Color"), roughness=view.number("Roughness", 0, 1)
+        )
+    )
+
+
+@shader("ShaderNodeBsdfRayPortal")
+def ray_portal(view: NodeView) -> NodeIndex:
+    """Rays go on where they are."""
+    view.warn("not supported: drawn as a Transparent BSDF")
+    return view.add(basicrt.TransparentShader(color=view.color("Color")))
+
+
+@shader("ShaderNodeHoldout", "ShaderNodeBackground")
+def black(view: NodeView) -> NodeIndex:
+    """A background on a surface is black in Blender too; a holdout is black without its alpha."""
+    if view.bl_idname == "ShaderNodeHoldout":
+        view.warn("not supported: drawn black and opaque")
+    return None

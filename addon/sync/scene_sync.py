@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A whole evaluated scene: the dependency graph's instances become shapes, instances and lights."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import basicrt
+import bpy
+import numpy as np
+
+from .. import compat
+from ..export import camera, light, material, mesh, settings, visibility, world
+from ..report import ExportError, Report
+
+# Kinds of objects that Blender would draw and BasicRT doesn't. (Curves, text and the like come as
+# meshes too.)
+_UNSUPPORTED = {
+    "CURVES": "hair curves",
+    "POINTCLOUD": "point clouds",
+    "VOLUME": "volumes",
+}
+
+
+def export(
+    depsgraph: bpy.types.Depsgraph, b_camera: bpy.types.Object | None, report: Report
+) -> basicrt.Scene:
+    """The scene that a view layer shows to an (evaluated) camera.
+
+    Raises ExportError, naming the culprit, where nothing can be rendered.
+    """
+    b_scene: Any = depsgraph.scene_eval
+    b_view_layer: Any = depsgraph.view_layer_eval
+    if b_camera is None:
+        raise ExportError(f'scene "{b_scene.name}" has no camera: choose one in Scene > Camera')
+    scene = basicrt.Scene()
+    settings.convert(b_scene, b_view_layer, scene.settings, report)
+    scene.camera = camera.convert(b_camera, b_scene.render, report)
+    scene.environment = world.convert(compat.view_layer_world(b_scene, b_view_layer), report)
+    _InstanceExport(scene, depsgraph, report).run()
+    return scene
+
+
+class _InstanceExport:
+    """Goes over the dependency graph once; what several instances share is converted once."""
+
+    def __init__(
+        self, scene: basicrt.Scene, depsgraph: bpy.types.Depsgraph, report: Report
+    ) -> None:
+        self._scene = scene
+        self._depsgraph = depsgraph
+        self._report = report
+        self._shapes: dict[int, int | None] = {}
+        self._materials: dict[int, int] = {}
+        # By the session_uids of an object and what instances it, and the mesh's key.
+        self._slots: dict[tuple[int, int], list[int | None]] = {}
+        self._visibility: dict[tuple[int, int], int] = {}
+
+    def run(self) -> None:
+        """Export everything."""
+        for b_instance in self._depsgraph.object_instances:
+            if not b_instance.show_self:
+                continue
+            b_object: Any = b_instance.object
+            if b_object.type == "MESH":
+                self._add_mesh(b_instance, b_object)
+            elif b_object.type == "LIGHT":
+                converted = light.convert(b_object, b_instance.matrix_world, self._report)
+                if converted is not None:
+                    self._scene.lights.append(converted)
+            elif b_object.type in _UNSUPPORTED:
+                self._warn(b_object, f"{_UNSUPPORTED[b_object.type]} are not supported: left out")
+
+    def _warn(self, b_object: bpy.types.Object, message: str) -> None:
+        self._report.warn(f'object "{b_object.name}"', message)
+
+    def _add_mesh(
+        self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object
+    ) -> None:
+        """One placed mesh."""
+        b_mesh: Any = b_object.data
+        shape = self._shape_of(b_object, b_mesh)
+        if shape is None:
+            return
+        transform = np.array(b_instance.matrix_world, np.float64)
+        if not np.isfinite(transform).all():
+            raise ExportError(f'object "{b_object.name}": its transform is not finite')
+        if np.linalg.det(transform[:3, :3].astype(np.float32)) == 0.0:
+            self._warn(b_object, "scaled to nothing along an axis: left out")
+            return
+        self._scene.instances.append(
+            basicrt.Instance(
+                shape=shape,
+                transform=transform,
+                materials=self._materials_of(b_object, b_mesh),
+                name=b_object.name,
+                visibility=self._visibility_of(b_instance, b_object),
+            )
+        )
+
+    def _shape_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> int | None:
+        """The index of a mesh's shape, None where it has no faces."""
+        key = mesh.key(b_mesh)
+        if key not in self._shapes:
+            try:
+                shape = mesh.convert(b_mesh)
+            except basicrt.SceneError as error:
+                raise ExportError(f'object "{b_object.name}": {error}') from error
+            self._shapes[key] = None if shape is None else self._scene.shapes.append(shape)
+            if b_object.is_holdout or b_object.is_shadow_catcher:
+                self._warn(b_object, "holdouts and shadow catchers are not supported: drawn as is")
+        return self._shapes[key]
+
+    def _materials_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> list[int | None]:
+        """The material of each slot; Blender's default where a slot has none."""
+        key = (b_object.session_uid, mesh.key(b_mesh))
+        if key not in self._slots:
+            b_view_layer: Any = self._depsgraph.view_layer_eval
+            override = b_view_layer.material_override
+            materials = [override] if override else material.slots(b_object, b_mesh)
+            self._slots[key] = [self._material(b_material) for b_material in materials]
+        return self._slots[key]
+
+    def _material(self, b_material: bpy.types.Material | None) -> int | None:
+        """The index of a material, None for none."""
+        if b_material is None:
+            return None
+        key = material.key(b_material)
+        if key not in self._materials:
+            converted = material.convert(b_material, self._report)
+            self._materials[key] = self._scene.materials.append(converted)
+        return self._materials[key]
+
+    def _visibility_of(
+        self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object
+    ) -> int:
+        """Which rays see an instance: those that may see both the object and what instances it."""
+        b_parent = b_instance.parent if b_instance.is_instance else None
+        key = (b_object.session_uid, b_parent.session_uid if b_parent else 0)
+        if key not in self._visibility:
+            kinds = visibility.object_visibility(b_object)
+            if b_parent is not None:
+                kinds &= visibility.object_visibility(b_parent)
+            b_root: Any = b_parent or b_object
+            if b_root.original.indirect_only_get(view_layer=self._depsgraph.view_layer):
+                kinds &= ~basicrt.RayKind.CAMERA
+            self._visibility[key] = int(kinds)
+        return self._visibility[key]

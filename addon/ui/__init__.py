@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Panels: BasicRT's own, and Blender's that suit it."""
+
+from __future__ import annotations
+
+from . import core_panels, panels
+
+
+def register() -> None:
+    """Show the panels."""
+    panels.register()
+    core_panels.register()
+
+
+def unregister() -> None:
+    """Hide them again."""
+    core_panels.unregister()
+    panels.unregister()

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""BasicRT's own panels in the properties editor."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..engine import BasicRTRenderEngine
+from ..properties import settings_of
+from ..report import shown_warnings
+
+
+class _Panel:
+    """What all of them share."""
+
+    bl_space_type: Any = "PROPERTIES"
+    bl_region_type: Any = "WINDOW"
+    bl_context = "render"
+    COMPAT_ENGINES = {BasicRTRenderEngine.bl_idname}
+    layout: Any
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Blender's callback."""
+        return context.engine in cls.COMPAT_ENGINES
+
+    def column(self) -> Any:
+        """Where properties go, in Blender's two-column style."""
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        return self.layout.column()
+
+
+class BASICRT_RENDER_PT_sampling(_Panel, bpy.types.Panel):
+    """How much noise is left."""
+
+    bl_label = "Sampling"
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        column.prop(settings_of(context.scene), "samples")
+        column.prop(settings_of(context.scene), "seed")
+
+
+class BASICRT_RENDER_PT_light_paths(_Panel, bpy.types.Panel):
+    """How far light is followed."""
+
+    bl_label = "Light Paths"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        column.prop(settings_of(context.scene), "max_bounces")
+        column.separator()
+        for kind in ("diffuse", "glossy", "transmission", "transparent"):
+            column.prop(settings_of(context.scene), f"{kind}_bounces")
+
+
+class BASICRT_RENDER_PT_film(_Panel, bpy.types.Panel):
+    """What a pixel is."""
+
+    bl_label = "Film"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        settings = settings_of(context.scene)
+        column.prop(settings, "film_exposure")
+        column.prop(context.scene.render, "film_transparent", text="Transparent")
+        column.separator()
+        column.prop(settings, "filter_type")
+        row = column.row()
+        row.active = settings.filter_type != "BOX"
+        row.prop(settings, "filter_width")
+
+
+class BASICRT_RENDER_PT_performance(_Panel, bpy.types.Panel):
+    """What changes the time, not the picture."""
+
+    bl_label = "Performance"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        render = context.scene.render
+        column.prop(render, "threads_mode")
+        row = column.row()
+        row.enabled = render.threads_mode == "FIXED"
+        row.prop(render, "threads")
+        column.separator()
+        column.prop(settings_of(context.scene), "tile_size")
+        column.prop(settings_of(context.scene), "bvh_builder")
+
+
+class BASICRT_RENDER_PT_warnings(_Panel, bpy.types.Panel):
+    """What the last render could not draw as Blender means it."""
+
+    bl_label = "Warnings"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Blender's callback: no warnings, no panel."""
+        return super().poll(context) and bool(shown_warnings())
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.layout.column(align=True)
+        for text in shown_warnings():
+            column.label(text=text, icon="ERROR")
+
+
+class BASICRT_VIEWLAYER_PT_passes(_Panel, bpy.types.Panel):
+    """Which passes a view layer has."""
+
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        column.prop(context.view_layer, "use_pass_z", text="Depth")
+        column.prop(context.view_layer, "use_pass_normal", text="Normal")
+
+
+class BASICRT_OBJECT_PT_ray_visibility(_Panel, bpy.types.Panel):
+    """Which rays see an object."""
+
+    bl_label = "Ray Visibility"
+    bl_context = "object"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Blender's callback."""
+        kinds = {"MESH", "CURVE", "SURFACE", "FONT", "META", "LIGHT", "EMPTY"}
+        return super().poll(context) and context.object is not None and context.object.type in kinds
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        column.prop(context.object, "visible_camera", text="Camera")
+        if context.object.type != "LIGHT":
+            for kind in ("diffuse", "glossy", "transmission", "shadow"):
+                column.prop(context.object, f"visible_{kind}", text=kind.capitalize())
+
+
+_PANELS = (
+    BASICRT_RENDER_PT_sampling,
+    BASICRT_RENDER_PT_light_paths,
+    BASICRT_RENDER_PT_film,
+    BASICRT_RENDER_PT_performance,
+    BASICRT_RENDER_PT_warnings,
+    BASICRT_VIEWLAYER_PT_passes,
+    BASICRT_OBJECT_PT_ray_visibility,
+)
+
+
+def register() -> None:
+    """Show the panels."""
+    for panel in _PANELS:
+        bpy.utils.register_class(panel)
+
+
+def unregister() -> None:
+    """Hide them."""
+    for panel in reversed(_PANELS):
+        bpy.utils.unregister_class(panel)
