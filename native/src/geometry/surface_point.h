@@ -15,7 +15,7 @@ namespace basicrt {
 struct SurfacePoint {
   Vec3f position;
   Vec3f position_error;    // the true point is within position +- position_error
-  Vec3f geometric_normal;  // unit length; by the winding p0 p1 p2, or by the orientation of the corner normals
+  Vec3f geometric_normal;  // unit length; in object space by the winding p0 p1 p2, whatever the transform mirrors
   Vec3f shading_normal;    // unit length, on the same side as geometric_normal
   Vec2f uv;
   Vec3f dpdu, dpdv;  // change of position with uv

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Checks meshes and drops triangles without area.
+#include "geometry/mesh.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+
+namespace basicrt {
+namespace {
+
+std::string entry(std::string_view item, std::string_view array, std::size_t index) {
+  return std::string(item) + "." + std::string(array) + "[" + std::to_string(index) + "]";
+}
+
+void check_length(std::string_view item, std::string_view array, std::size_t length, std::size_t expected,
+                  std::string_view rule) {
+  if (length == 0 || length == expected) return;
+  throw SceneError(
+      std::string(item) + "." + std::string(array),
+      "must have " + std::string(rule) + " (" + std::to_string(expected) + ") or none, has " + std::to_string(length));
+}
+
+bool is_finite_entry(Vec3f v) { return is_finite(v); }
+bool is_finite_entry(Vec2f v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+
+template <class V>
+void check_finite(std::string_view item, std::string_view array, const std::vector<V>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!is_finite_entry(values[i])) throw SceneError(entry(item, array, i), "must be finite, is NaN or infinite");
+}
+
+// To within what double precision can tell.
+bool has_area(const Mesh& mesh, std::uint32_t triangle) {
+  const Vec3d p0(mesh.position(triangle, 0));
+  const Vec3d edge1 = Vec3d(mesh.position(triangle, 1)) - p0, edge2 = Vec3d(mesh.position(triangle, 2)) - p0;
+  const double noise = 4 * std::numeric_limits<double>::epsilon() * length(edge1) * length(edge2);
+  return length(cross(edge1, edge2)) > noise;
+}
+
+// Keeps the entries of the triangles in `kept`, `width` for each; an array that is absent stays absent.
+template <class T>
+void keep(std::vector<T>& values, const std::vector<std::uint32_t>& kept, std::size_t width) {
+  if (values.empty()) return;
+  std::vector<T> result;
+  result.reserve(kept.size() * width);
+  for (const std::size_t triangle : kept)
+    for (std::size_t i = 0; i < width; ++i) result.push_back(values[triangle * width + i]);
+  values = std::move(result);
+}
+
+}  // namespace
+
+Bounds3f bounds(const Mesh& mesh) {
+  Bounds3f result;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t index : triangle) result.extend(mesh.positions[index]);
+  return result;
+}
+
+void validate(const Mesh& mesh, std::string_view item) {
+  const std::size_t count = mesh.triangles.size();
+  constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();
+  if (count >= limit || mesh.positions.size() >= limit)
+    throw SceneError(item, "must have fewer than 2^32 - 1 positions and triangles");
+  check_length(item, "corner_normals", mesh.corner_normals.size(), 3 * count, "three for each triangle");
+  check_length(item, "uvs", mesh.uvs.size(), 3 * count, "three for each triangle");
+  check_length(item, "material_slots", mesh.material_slots.size(), count, "one for each triangle");
+  for (std::size_t i = 0; i < count; ++i)
+    for (const std::uint32_t index : mesh.triangles[i])
+      if (index >= mesh.positions.size())
+        throw SceneError(entry(item, "triangles", i), "index " + std::to_string(index) + ", but the mesh has " +
+                                                          std::to_string(mesh.positions.size()) + " positions");
+  check_finite(item, "positions", mesh.positions);
+  check_finite(item, "corner_normals", mesh.corner_normals);
+  check_finite(item, "uvs", mesh.uvs);
+}
+
+Mesh remove_degenerate_triangles(Mesh mesh, std::string_view item, Report& report) {
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  std::vector<std::uint32_t> kept;
+  kept.reserve(count);
+  for (std::uint32_t triangle = 0; triangle < count; ++triangle)
+    if (has_area(mesh, triangle)) kept.push_back(triangle);
+  if (kept.size() == count) return mesh;
+  report.warn(std::string(item) + ": " + std::to_string(count - kept.size()) + " of " + std::to_string(count) +
+              " triangles have no area and are left out");
+  keep(mesh.triangles, kept, 1);
+  keep(mesh.corner_normals, kept, 3);
+  keep(mesh.uvs, kept, 3);
+  keep(mesh.material_slots, kept, 1);
+  return mesh;
+}
+
+}  // namespace basicrt

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A ray in double precision: what hits are computed with, in an object's own space.
+#pragma once
+
+#include <limits>
+
+#include "math/ray.h"
+#include "math/transform.h"
+
+namespace basicrt {
+
+struct PreciseRay {
+  Vec3d origin, direction;
+  double t_min = 0, t_max = 0;
+};
+
+// The direction is not normalised, so that t means the same in both spaces. Distances that a float can't hold are out
+// of reach.
+inline PreciseRay transform_ray(const TransformD& world_to_object, const Ray& ray) {
+  constexpr float largest = std::numeric_limits<float>::max();
+  return {.origin = world_to_object.point(Vec3d(ray.origin)),
+          .direction = world_to_object.vector(Vec3d(ray.direction)),
+          .t_min = ray.t_min,
+          .t_max = ray.t_max > largest ? largest : ray.t_max};
+}
+
+}  // namespace basicrt

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a hit to a surface point: solved in the object's space in double precision, then taken to the world.
+#include "geometry/surface_point.h"
+
+#include <cmath>
+
+#include "base/overloaded.h"
+#include "geometry/error_bounds.h"
+#include "geometry/local_point.h"
+
+namespace basicrt {
+namespace {
+
+// The direction that `v` has, or `otherwise` where it has none.
+Vec3d direction_or(Vec3d v, Vec3d otherwise) {
+  const double squared = length_squared(v);
+  return squared > 0 && std::isfinite(squared) ? v / std::sqrt(squared) : otherwise;
+}
+
+// The derivative of n / |n|, given that of n.
+Vec3d unit_derivative(Vec3d unit, Vec3d derivative, double length) {
+  return (derivative - unit * dot(unit, derivative)) / length;
+}
+
+// Taking the point to the world, and taking it back as the origin of the next ray, both round.
+Vec3d world_error(const TransformD& object_to_world, const TransformD& world_to_object, const LocalPoint& local,
+                  Vec3d position) {
+  const Vec3d local_error = local.error + point_rounding(world_to_object, position);
+  return spread(object_to_world, local_error) + point_rounding(object_to_world, local.position);
+}
+
+void set_normals(SurfacePoint& point, const TransformD& world_to_object, const LocalPoint& local) {
+  // By the inverse transpose, which keeps the outward side outward under mirroring too.
+  const Vec3d geometric = direction_or(world_to_object.transposed_vector(local.normal), {0, 0, 1});
+  const Vec3d shading = world_to_object.transposed_vector(local.shading_normal);
+  Vec3d unit = direction_or(shading, geometric);
+  const double shading_length = length(shading);
+  const bool is_smooth = shading_length > 0 && std::isfinite(shading_length);
+  Vec3d dndu, dndv;
+  if (is_smooth) {
+    dndu = unit_derivative(unit, world_to_object.transposed_vector(local.dndu), shading_length);
+    dndv = unit_derivative(unit, world_to_object.transposed_vector(local.dndv), shading_length);
+  }
+  const double side = dot(unit, geometric) < 0 ? -1 : 1;
+  point.geometric_normal = Vec3f(geometric);
+  point.shading_normal = Vec3f(unit * side);
+  point.dndu = Vec3f(dndu * side);
+  point.dndv = Vec3f(dndv * side);
+}
+
+// The least-squares solution of dpdu * du + dpdv * dv = offset.
+Vec2f to_uv(Vec3d dpdu, Vec3d dpdv, Vec3d offset) {
+  const double uu = length_squared(dpdu), uv = dot(dpdu, dpdv), vv = length_squared(dpdv);
+  const double determinant = uu * vv - uv * uv;
+  if (!(determinant > 0)) return {};
+  const double u = dot(dpdu, offset), v = dot(dpdv, offset);
+  const Vec2f result{static_cast<float>((vv * u - uv * v) / determinant),
+                     static_cast<float>((uu * v - uv * u) / determinant)};
+  return std::isfinite(result.x) && std::isfinite(result.y) ? result : Vec2f{};
+}
+
+// Igehy 1999, "Tracing Ray Differentials": the neighbouring rays meet the tangent plane.
+void set_differentials(SurfacePoint& point, const Ray& ray, double t, const RayDifferentials& differentials) {
+  const Vec3d normal(point.geometric_normal), direction(ray.direction);
+  const double cosine = dot(direction, normal);
+  if (cosine == 0) return;
+  const auto shift = [&](Vec3f origin_change, Vec3f direction_change) {
+    const Vec3d moved = Vec3d(origin_change) + Vec3d(direction_change) * t;
+    return moved - direction * (dot(moved, normal) / cosine);
+  };
+  const Vec3d dpdx = shift(differentials.origin_dx, differentials.direction_dx);
+  const Vec3d dpdy = shift(differentials.origin_dy, differentials.direction_dy);
+  if (!is_finite(dpdx) || !is_finite(dpdy)) return;
+  point.dpdx = Vec3f(dpdx);
+  point.dpdy = Vec3f(dpdy);
+  point.duvdx = to_uv(Vec3d(point.dpdu), Vec3d(point.dpdv), dpdx);
+  point.duvdy = to_uv(Vec3d(point.dpdu), Vec3d(point.dpdv), dpdy);
+}
+
+}  // namespace
+
+SurfacePoint make_surface_point(const Shape& shape, const TransformD& object_to_world,
+                                const TransformD& world_to_object, const Ray& ray, const Hit& hit,
+                                const RayDifferentials* differentials) {
+  const PreciseRay local_ray = transform_ray(world_to_object, ray);
+  const LocalPoint local =
+      std::visit(Overloaded{[&](const Mesh& mesh) { return local_point_on_triangle(mesh, local_ray, hit); },
+                            [&](const Sphere& sphere) { return local_point_on_sphere(sphere, local_ray, hit); }},
+                 shape);
+
+  SurfacePoint point;
+  const Vec3d position = object_to_world.point(local.position);
+  point.position = Vec3f(position);
+  point.position_error =
+      round_up_with_float_error(position, world_error(object_to_world, world_to_object, local, position));
+  set_normals(point, world_to_object, local);
+  point.uv = Vec2f(local.uv);
+  point.dpdu = Vec3f(object_to_world.vector(local.dpdu));
+  point.dpdv = Vec3f(object_to_world.vector(local.dpdv));
+  point.instance = hit.instance;
+  point.primitive = hit.primitive;
+  point.material_slot = local.material_slot;
+  point.is_backfacing = dot(local_ray.direction, local.normal) > 0;
+  if (differentials) set_differentials(point, ray, hit.t, *differentials);
+  return point;
+}
+
+// Moves by the bound along the normal, then rounds away from the surface (Pharr, Jakob and Humphreys 2023,
+// "Physically Based Rendering", section 6.8.6).
+Vec3f offset_origin(const SurfacePoint& point, Vec3f direction) {
+  const Vec3f normal = point.geometric_normal;
+  const float distance = dot(abs(normal), point.position_error);
+  const float side = dot(direction, normal) < 0 ? -1.0f : 1.0f;
+  Vec3f result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float offset = side * normal[axis] * distance;
+    const float moved = point.position[axis] + offset;
+    result[axis] = normal[axis] == 0 ? moved : std::nextafter(moved, std::copysign(infinity, side * normal[axis]));
+  }
+  return result;
+}
+
+}  // namespace basicrt

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surface points on a mesh's triangles.
+#include <array>
+#include <cmath>
+
+#include "geometry/error_bounds.h"
+#include "geometry/local_point.h"
+#include "geometry/triangle.h"
+
+namespace basicrt {
+namespace {
+
+using Corners = std::array<Vec3d, 3>;
+
+Vec3d interpolate(const Corners& corners, const std::array<double, 3>& weights) {
+  return corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+}
+
+// By the hit where the line of the ray doesn't say.
+std::array<double, 3> barycentric(const TriangleHit& exact, const Hit& hit) {
+  const bool is_usable = std::isfinite(exact.u) && std::isfinite(exact.v);
+  const double u = is_usable ? exact.u : static_cast<double>(hit.u);
+  const double v = is_usable ? exact.v : static_cast<double>(hit.v);
+  return {1 - u - v, u, v};
+}
+
+// Three parts: interpolation; the barycentrics, which a grazing ray leaves uncertain along the plane; and the plane
+// that the next ray's test will see, which is uncertain where the triangle is a sliver.
+Vec3d position_error(const Corners& p, const std::array<double, 3>& weights, Vec3d position, const PreciseRay& ray) {
+  const Vec3d edge1 = p[1] - p[0], edge2 = p[2] - p[0], from_p0 = ray.origin - p[0];
+  const Vec3d edge_sum = abs(edge1) + abs(edge2);
+  const Vec3d interpolation = (abs(p[0] * weights[0]) + abs(p[1] * weights[1]) + abs(p[2] * weights[2])) * gamma(6);
+  const Vec3d cross_product = cross(edge1, edge2);
+  const double area = length(cross_product), product = length(edge1) * length(edge2);
+  const double determinant = std::abs(dot(ray.direction, cross_product));
+  const double coordinates =
+      length(ray.direction) * (length(from_p0) + length(abs(p[0]) + abs(ray.origin))) * (length(edge1) + length(edge2));
+  const double uncertainty = determinant > 0 ? gamma(16) * coordinates / determinant : 0;
+  const double plane = area > 0 ? gamma(16) * length(position - p[0]) * product / area : 0;
+  return interpolation + edge_sum * uncertainty + Vec3d(plane);
+}
+
+struct Derivatives {
+  Vec3d du, dv;
+};
+
+// Of a quantity that is linear over the triangle, from its differences along the edges. `is_usable` is false where
+// the uvs don't span the plane.
+struct UvEdges {
+  Vec2d first, second;
+  double determinant = 0;
+
+  explicit UvEdges(const std::array<Vec2d, 3>& uv)
+      : first(uv[1] - uv[0]), second(uv[2] - uv[0]), determinant(first.x * second.y - first.y * second.x) {}
+  [[nodiscard]] bool is_usable() const { return determinant != 0 && std::isfinite(1 / determinant); }
+  [[nodiscard]] Derivatives derivatives(const Corners& values) const {
+    const Vec3d along1 = values[1] - values[0], along2 = values[2] - values[0];
+    return {(along1 * second.y - along2 * first.y) / determinant, (along2 * first.x - along1 * second.x) / determinant};
+  }
+};
+
+}  // namespace
+
+LocalPoint local_point_on_triangle(const Mesh& mesh, const PreciseRay& ray, const Hit& hit) {
+  const std::uint32_t triangle = hit.primitive;
+  const Vec3f p0 = mesh.position(triangle, 0), p1 = mesh.position(triangle, 1), p2 = mesh.position(triangle, 2);
+  const Corners positions{Vec3d(p0), Vec3d(p1), Vec3d(p2)};
+  const auto weights = barycentric(intersect_triangle_plane(ray, p0, p1, p2), hit);
+
+  LocalPoint point;
+  point.position = interpolate(positions, weights);
+  point.error = position_error(positions, weights, point.position, ray);
+  point.normal = cross(positions[1] - positions[0], positions[2] - positions[0]);
+  point.material_slot = mesh.material_slots.empty() ? 0 : mesh.material_slots[triangle];
+
+  // Without texture coordinates, or where they are all on a line, the barycentrics parametrise the triangle.
+  std::array<Vec2d, 3> uv{Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{0, 1}};
+  UvEdges edges(uv);
+  if (!mesh.uvs.empty()) {
+    for (std::size_t i = 0; i < 3; ++i) uv[i] = Vec2d(mesh.uvs[3 * std::size_t{triangle} + i]);
+    const UvEdges given(uv);
+    if (given.is_usable()) edges = given;
+  }
+  point.uv = uv[0] * weights[0] + uv[1] * weights[1] + uv[2] * weights[2];
+  const Derivatives position_change = edges.derivatives(positions);
+  point.dpdu = position_change.du;
+  point.dpdv = position_change.dv;
+
+  if (!mesh.corner_normals.empty()) {
+    Corners normals;
+    for (std::size_t i = 0; i < 3; ++i) normals[i] = Vec3d(mesh.corner_normals[3 * std::size_t{triangle} + i]);
+    point.shading_normal = interpolate(normals, weights);
+    const Derivatives normal_change = edges.derivatives(normals);
+    point.dndu = normal_change.du;
+    point.dndv = normal_change.dv;
+  }
+  return point;
+}
+
+}  // namespace basicrt
