@@ -10,6 +10,12 @@
 namespace basicrt {
 namespace {
 
+// As for instances: a lamp is seen when any of the ray's kinds sees it.
+bool is_visible(const Light& light, std::uint32_t ray_kinds) {
+  const bool by_camera = std::visit([](const auto& lamp) { return lamp.is_camera_visible; }, light);
+  return by_camera || (ray_kinds & ~ray_camera) != 0;
+}
+
 // Black light is none; and where a lamp is so near or far that a number leaves the range of floats, it is lost.
 bool is_usable(Color radiance, float pdf) {
   return pdf > 0 && pdf < infinity && is_finite(radiance) && !is_black(radiance);
@@ -29,6 +35,7 @@ std::optional<LightSample> sample_light(const Light& light, Vec3f position, Vec2
 }
 
 std::optional<LightHit> intersect_light(const Light& light, const Ray& ray) {
+  if (!is_visible(light, ray.kinds)) return std::nullopt;
   std::optional<LightHit> hit = std::visit([&](const auto& lamp) { return intersect_lamp(lamp, ray); }, light);
   if (hit && !is_usable(hit->radiance, hit->pdf)) hit.reset();
   return hit;

@@ -14,6 +14,9 @@
 
 namespace basicrt {
 
+inline constexpr std::string_view camera_visible_help =
+    "whether camera rays see the lamp; what it lights stays the same";
+
 // A sphere of the given radius, or a point where that is 0. With soft falloff a disc that faces the lit point stands
 // in for the sphere, as Blender's lamps have it by default.
 struct PointLight {
@@ -21,12 +24,14 @@ struct PointLight {
   Color intensity{1.0f};  // W / sr; a sphere has the radiance intensity / (pi radius^2)
   float radius = 0;
   bool is_soft = false;
+  bool is_camera_visible = true;
   static constexpr std::string_view kind = "point";
   static constexpr auto fields() {
     return std::tuple{field("position", &PointLight::position, "world space, metres"),
                       field("intensity", &PointLight::intensity, "W / sr", at_least(0)),
                       field("radius", &PointLight::radius, "metres", at_least(0)),
-                      field("soft", &PointLight::is_soft, "a disc that faces the lit point instead of a sphere")};
+                      field("soft", &PointLight::is_soft, "a disc that faces the lit point instead of a sphere"),
+                      field("camera_visible", &PointLight::is_camera_visible, camera_visible_help)};
   }
 };
 
@@ -37,6 +42,7 @@ struct SpotLight {
   bool is_soft = false;
   float angle = 0.785398f;  // full angle of the cone, radians
   float blend = 0.15f;      // share of the cone in which it fades
+  bool is_camera_visible = true;
   static constexpr std::string_view kind = "spot";
   static constexpr auto fields() {
     return std::tuple{field("transform", &SpotLight::to_world, "local to world; shines along local -z"),
@@ -44,7 +50,8 @@ struct SpotLight {
                       field("radius", &SpotLight::radius, "metres", at_least(0)),
                       field("soft", &SpotLight::is_soft, "a disc that faces the lit point instead of a sphere"),
                       field("angle", &SpotLight::angle, "full angle of the cone, radians", above(0)),
-                      field("blend", &SpotLight::blend, "share of the cone in which it fades", within(0, 1))};
+                      field("blend", &SpotLight::blend, "share of the cone in which it fades", within(0, 1)),
+                      field("camera_visible", &SpotLight::is_camera_visible, camera_visible_help)};
   }
 };
 
@@ -52,11 +59,13 @@ struct SunLight {
   Vec3f direction{0, 0, -1};  // in which the light travels
   Color irradiance{1.0f};     // W / m^2 on a surface that faces it
   float angle = 0;            // full angle of the disc, radians
+  bool is_camera_visible = true;
   static constexpr std::string_view kind = "sun";
   static constexpr auto fields() {
     return std::tuple{field("direction", &SunLight::direction, "in which the light travels, world space"),
                       field("irradiance", &SunLight::irradiance, "W / m^2 on a surface that faces it", at_least(0)),
-                      field("angle", &SunLight::angle, "full angle of the disc, radians", within(0, 3.141593))};
+                      field("angle", &SunLight::angle, "full angle of the disc, radians", within(0, 3.141593)),
+                      field("camera_visible", &SunLight::is_camera_visible, camera_visible_help)};
   }
 };
 
@@ -66,12 +75,14 @@ struct AreaLight {
   Color radiance{1.0f};
   bool is_ellipse = false;
   float spread = 3.141593f;  // full angle, radians; pi shines everywhere alike
+  bool is_camera_visible = true;
   static constexpr std::string_view kind = "area";
   static constexpr auto fields() {
     return std::tuple{field("transform", &AreaLight::to_world, "local to world; a unit square or disc at z = 0"),
                       field("radiance", &AreaLight::radiance, "W / (m^2 sr) with full spread", at_least(0)),
                       field("ellipse", &AreaLight::is_ellipse, "an ellipse instead of a rectangle"),
-                      field("spread", &AreaLight::spread, "full angle, radians", within(0, 3.141593))};
+                      field("spread", &AreaLight::spread, "full angle, radians", within(0, 3.141593)),
+                      field("camera_visible", &AreaLight::is_camera_visible, camera_visible_help)};
   }
 };
 

@@ -127,6 +127,23 @@ TEST(Lights, rays_see_lamps_only_within_their_interval) {
   }
 }
 
+TEST(Lights, hidden_from_the_camera_are_met_by_other_rays_and_light_alike) {
+  for (NamedLamp lamp : lamps_with_size()) {
+    const auto sample = sample_light(lamp.light, {0.1f, 0.2f, 0}, {0.3f, 0.6f});
+    ASSERT_TRUE(sample) << lamp.name;
+    const Ray from_camera{.origin = {0.1f, 0.2f, 0}, .direction = sample->wi, .kinds = ray_camera};
+    Ray other = from_camera;
+    other.kinds = ray_glossy;
+    EXPECT_TRUE(intersect_light(lamp.light, from_camera)) << lamp.name;
+    const float pdf = light_pdf(lamp.light, from_camera.origin, sample->wi);
+
+    std::visit([](auto& light) { light.is_camera_visible = false; }, lamp.light);
+    EXPECT_FALSE(intersect_light(lamp.light, from_camera)) << lamp.name;
+    EXPECT_TRUE(intersect_light(lamp.light, other)) << lamp.name;
+    EXPECT_EQ(light_pdf(lamp.light, from_camera.origin, sample->wi), pdf) << lamp.name;
+  }
+}
+
 TEST(Lights, deltas_have_a_density_of_one_and_are_never_hit) {
   for (const NamedLamp& lamp : deltas()) {
     EXPECT_TRUE(is_delta(lamp.light));
