@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scene, its tables and Instance.
+#include "scene/scene.h"
+
+#include "described.h"
+#include "io/scene_json.h"
+#include "path_argument.h"
+#include "register.h"
+#include "scene_lease.h"
+
+namespace basicrt::bindings {
+namespace py = pybind11;
+
+namespace {
+
+// One of a scene's tables, looked at from Python.
+template <class T>
+struct TableView {
+  BoundScene* scene;
+  Table<T> Scene::* table;
+
+  [[nodiscard]] const Table<T>& read() const { return scene->scene().*table; }
+  [[nodiscard]] Table<T>& edit() const { return scene->edit().*table; }
+  // An index as Python has them, negative ones from the end.
+  [[nodiscard]] Id<T> id(std::int64_t index) const {
+    const std::int64_t size = read().size();
+    if (index < -size || index >= size)
+      throw py::index_error("index " + std::to_string(index) + ", but there are " + std::to_string(size) + " entries");
+    return Id<T>{static_cast<std::uint32_t>(index < 0 ? index + size : index)};
+  }
+};
+
+template <class T>
+void bind_table(py::module_& m, const char* name) {
+  using View = TableView<T>;
+  py::class_<View>(m, name, "Entries of a scene by index. Reading gives a copy; assign it back to change the scene.")
+      .def(
+          "append", [](const View& self, T value) { return self.edit().append(std::move(value)).index; },
+          py::arg("value"), "Adds an entry and returns its index.")
+      .def("__len__", [](const View& self) { return self.read().size(); })
+      .def("__getitem__", [](const View& self, std::int64_t index) -> T { return self.read()[self.id(index)]; })
+      .def("__setitem__",
+           [](const View& self, std::int64_t index, T value) { self.edit().set(self.id(index), std::move(value)); })
+      .def("__iter__", [](const py::object& self) -> py::typing::Iterator<T> {
+        // Calls __getitem__ until it raises IndexError.
+        return py::reinterpret_steal<py::typing::Iterator<T>>(PySeqIter_New(self.ptr()));
+      });
+}
+
+template <class T>
+auto table_getter(Table<T> Scene::* table) {
+  return py::cpp_function([table](BoundScene& self) { return TableView<T>{&self, table}; }, py::keep_alive<0, 1>());
+}
+
+void bind_instance(py::module_& m) {
+  std::vector<Attribute<Instance>> attributes = {
+      make_attribute(field("shape", &Instance::shape, "index into Scene.shapes")),
+      make_attribute(field("transform", &Instance::object_to_world, "object to world")),
+      make_attribute(field("materials", &Instance::materials,
+                           "for each material slot an index into Scene.materials; None is a diffuse grey of 0.8")),
+      make_attribute(field("name", &Instance::name, "for messages")),
+      {"visibility", "RayKind bits: the rays that see it", "int", "int",
+       [](const Instance& self) { return py::int_(self.visibility); },
+       [](Instance& self, py::handle value, const std::string& item) {
+         const auto bits = PythonValue<std::int64_t>::read(value, item);
+         if (bits < 0 || bits > ray_all) refuse_value(item, "must be RayKind bits", value);
+         self.visibility = static_cast<std::uint32_t>(bits);
+       }}};
+  bind_fields<Instance>(m, "Instance", "A shape placed in the world.", attributes);
+}
+
+}  // namespace
+
+void register_scene(py::module_& m) {
+  bind_instance(m);
+  bind_table<Shape>(m, "ShapeTable");
+  bind_table<Texture>(m, "TextureTable");
+  bind_table<Material>(m, "MaterialTable");
+  bind_table<Instance>(m, "InstanceTable");
+  bind_table<Light>(m, "LightTable");
+
+  py::class_<BoundScene>(m, "Scene",
+                         "The description of a scene. No other thread may change it while a Session prepares it.")
+      .def(py::init<>())
+      .def_property_readonly("shapes", table_getter(&Scene::shapes), "Mesh and Sphere")
+      .def_property_readonly("textures", table_getter(&Scene::textures))
+      .def_property_readonly("materials", table_getter(&Scene::materials))
+      .def_property_readonly("instances", table_getter(&Scene::instances))
+      .def_property_readonly("lights", table_getter(&Scene::lights), "lamps; they don't block rays")
+      .def_readwrite("environment", &BoundScene::environment)
+      .def_readwrite("settings", &BoundScene::settings)
+      .def_property(
+          "camera", [](const BoundScene& self) { return self.scene().camera; },
+          [](BoundScene& self, std::optional<Camera> camera) { self.edit().camera = std::move(camera); },
+          "A copy of the camera, or None; assign to change it.")
+      .def(
+          "validate", [](BoundScene& self) { validate(SceneLease(self).scene()); },
+          "Raises SceneError naming the first item that can't be rendered, the rule and the value.")
+      .def(
+          "save",
+          [](BoundScene& self, const PathArgument& argument) {
+            const std::filesystem::path path = argument.read();
+            const SceneLease lease(self);
+            const py::gil_scoped_release release;
+            save_scene(lease.scene(), path);
+          },
+          py::arg("path"),
+          "Writes one JSON file with everything in it, by way of a temporary name. Loading it gives the same picture.")
+      .def(
+          "to_json", [](BoundScene& self) { return scene_to_json(SceneLease(self).scene()); },
+          "The text that save() writes.")
+      .def("__repr__", [](const BoundScene& self) {
+        return "<Scene of " + std::to_string(self.scene().instances.size()) + " instances, " +
+               std::to_string(self.scene().lights.size()) + " lights>";
+      });
+}
+
+}  // namespace basicrt::bindings

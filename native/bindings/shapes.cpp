@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mesh and Sphere.
+#include <cstring>
+#include <memory>
+
+#include "arrays.h"
+#include "described.h"
+#include "geometry/shape.h"
+#include "register.h"
+
+namespace basicrt::bindings {
+namespace py = pybind11;
+
+namespace {
+
+// What the arrays hold, as the mesh's own elements. Each element is so many numbers in a row.
+template <class Element, class T>
+std::vector<Element> to_vector(const py::array_t<T>& array) {
+  static_assert(sizeof(Element) % sizeof(T) == 0);
+  std::vector<Element> elements(static_cast<std::size_t>(array.size()) * sizeof(T) / sizeof(Element));
+  if (!elements.empty())
+    std::memcpy(static_cast<void*>(elements.data()), array.data(), elements.size() * sizeof(Element));
+  return elements;
+}
+
+Mesh make_mesh(const ArrayLike& positions, const ArrayLike& triangles, const std::optional<ArrayLike>& corner_normals,
+               const std::optional<ArrayLike>& uvs, const std::optional<ArrayLike>& material_slots) {
+  Mesh mesh;
+  mesh.positions = to_vector<Vec3f>(float_array(positions, "positions", {{any_length, 3}}));
+  mesh.triangles = to_vector<std::array<std::uint32_t, 3>>(index_array(triangles, "triangles", {{any_length, 3}}));
+  const auto count = static_cast<py::ssize_t>(mesh.triangles.size());
+  if (corner_normals)
+    mesh.corner_normals =
+        to_vector<Vec3f>(float_array(*corner_normals, "corner_normals", {{count, 3, 3}, {3 * count, 3}}));
+  if (uvs) mesh.uvs = to_vector<Vec2f>(float_array(*uvs, "uvs", {{count, 3, 2}, {3 * count, 2}}));
+  if (material_slots)
+    mesh.material_slots = to_vector<std::uint32_t>(index_array(*material_slots, "material_slots", {{count}}));
+  validate(mesh, "Mesh");
+  return mesh;
+}
+
+// A view of per-corner vectors, (T, 3, size) float32, or None where the mesh has none.
+template <class Element>
+std::optional<py::array_t<float>> corner_view(const std::vector<Element>& elements, const py::object& owner) {
+  if (elements.empty()) return std::nullopt;
+  constexpr py::ssize_t size = sizeof(Element) / sizeof(float);
+  const auto corners = static_cast<py::ssize_t>(elements.size());
+  return read_only_view(reinterpret_cast<const float*>(elements.data()), {corners / 3, 3, size}, owner);
+}
+
+void register_mesh(py::module_& m) {
+  py::class_<Mesh>(m, "Mesh", R"(Triangles in object space, copied out of arrays and checked once. Read-only.
+
+positions (V, 3) float32, metres; triangles (T, 3) uint32, counter-clockwise seen from the front; corner_normals
+(T, 3, 3) or (3T, 3) float32, unit length, without them the mesh is flat; uvs (T, 3, 2) or (3T, 2) float32;
+material_slots (T,) uint32, without them every triangle has slot 0. Other real (or integer) types are converted.
+Raises SceneError naming the array, the rule and the value.)")
+      .def(py::init(&make_mesh), py::arg("positions"), py::arg("triangles"), py::kw_only(),
+           py::arg("corner_normals") = py::none(), py::arg("uvs") = py::none(), py::arg("material_slots") = py::none())
+      .def_property_readonly(
+          "positions",
+          [](const py::object& self) {
+            const auto& positions = self.cast<const Mesh&>().positions;
+            return read_only_view(reinterpret_cast<const float*>(positions.data()),
+                                  {static_cast<py::ssize_t>(positions.size()), 3}, self);
+          },
+          "(V, 3) float32, object space, metres")
+      .def_property_readonly(
+          "triangles",
+          [](const py::object& self) {
+            const auto& triangles = self.cast<const Mesh&>().triangles;
+            return read_only_view(reinterpret_cast<const std::uint32_t*>(triangles.data()),
+                                  {static_cast<py::ssize_t>(triangles.size()), 3}, self);
+          },
+          "(T, 3) uint32, rows of positions")
+      .def_property_readonly(
+          "corner_normals",
+          [](const py::object& self) { return corner_view(self.cast<const Mesh&>().corner_normals, self); },
+          "(T, 3, 3) float32, or None: flat")
+      .def_property_readonly(
+          "uvs", [](const py::object& self) { return corner_view(self.cast<const Mesh&>().uvs, self); },
+          "(T, 3, 2) float32, or None")
+      .def_property_readonly(
+          "material_slots",
+          [](const py::object& self) -> std::optional<py::array_t<std::uint32_t>> {
+            const auto& slots = self.cast<const Mesh&>().material_slots;
+            if (slots.empty()) return std::nullopt;
+            return read_only_view(slots.data(), {static_cast<py::ssize_t>(slots.size())}, self);
+          },
+          "(T,) uint32, or None: all 0")
+      .def("__repr__", [](const Mesh& mesh) {
+        return "<Mesh of " + std::to_string(mesh.positions.size()) + " positions, " +
+               std::to_string(mesh.triangles.size()) + " triangles>";
+      });
+}
+
+}  // namespace
+
+void register_shapes(py::module_& m) {
+  register_mesh(m);
+  bind_described<Sphere>(m, "Sphere", "A sphere, exact. u is longitude, v latitude, poles on z.");
+}
+
+}  // namespace basicrt::bindings
