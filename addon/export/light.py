@@ -14,7 +14,6 @@ from mathutils import Matrix
 from .. import compat
 from ..nodes import emission_of
 from ..report import Report
-from .visibility import object_visibility
 
 Color = tuple[float, float, float]
 Light = basicrt.PointLight | basicrt.SpotLight | basicrt.SunLight | basicrt.AreaLight
@@ -35,17 +34,10 @@ def convert(b_object: bpy.types.Object, matrix: Matrix, report: Report) -> Light
     if light is None:
         report.warn(item, "has no size, and so no light")
     else:
-        light.visibility = _visibility(b_object, item, report)
+        light.camera_visible = b_object.visible_camera
+    if not (b_object.visible_diffuse and b_object.visible_glossy and b_object.visible_transmission):
+        report.warn(item, "hiding a lamp from other rays than the camera's is not supported")
     return light
-
-
-def _visibility(b_object: bpy.types.Object, item: str, report: Report) -> int:
-    """Which rays see the lamp itself; what it lights does not depend on it."""
-    visibility = object_visibility(b_object)
-    kinds = basicrt.RayKind
-    if ~visibility & (kinds.DIFFUSE | kinds.GLOSSY | kinds.TRANSMISSION):
-        report.warn(item, "ray visibility other than the camera's is not supported for lamps")
-    return int(visibility | (kinds.ALL & ~kinds.CAMERA))
 
 
 def _intensity(b_light: Any, strength: Color) -> Color:
