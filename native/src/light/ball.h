@@ -24,8 +24,13 @@ struct BallSample {
   float distance = 0;
   float pdf = 0;
 };
-// Nothing where the position is the centre of a disc.
+// Nothing where the position is the centre of a disc, or where a place on the sphere would look outwards.
 [[nodiscard]] std::optional<BallSample> sample_ball(const Ball& ball, Vec3f position, Vec2f u);
+
+// The density of that for a place on the ball so far away.
+[[nodiscard]] float pdf_ball(const Ball& ball, Vec3f position, double distance);
+// In the sphere or on it, as near as can be told. A disc has no inside.
+[[nodiscard]] bool is_inside(const Ball& ball, Vec3f position);
 
 struct BallHit {
   float t = 0;  // along the ray as it was given

@@ -4,13 +4,16 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
+#include <variant>
 #include <vector>
 
-#include "geometry/shape.h"
 #include "geometry/surface_point.h"
+#include "light/emissive_instance.h"
 #include "light/light.h"
+#include "light/mesh_emitter.h"
+#include "light/sphere_emitter.h"
 #include "math/bounds.h"
+#include "math/distribution.h"
 
 namespace basicrt {
 
@@ -20,16 +23,6 @@ struct Environment {
   static constexpr auto fields() {
     return std::tuple{field("radiance", &Environment::radiance, "W / (m^2 sr), each direction alike", at_least(0))};
   }
-};
-
-// An instance with a material that emits. The pointers must outlive the LightSet.
-struct EmissiveInstance {
-  std::uint32_t instance = 0;
-  const Shape* shape = nullptr;
-  TransformD object_to_world;
-  TransformD world_to_object;
-  // Radiance of each material slot's front and back.
-  std::vector<Color> front, back;
 };
 
 class LightSet {
@@ -50,23 +43,26 @@ class LightSet {
   // lamps don't block rays.
   template <class Visitor>
   void for_each_lamp_hit(const Ray& ray, Visitor&& visit) const {
-    for (std::uint32_t i = 0; i < lamps_.size(); ++i) {
-      if (auto hit = intersect_light(lamps_[i], ray)) {
-        hit->pdf *= lamp_probability(i);
+    for (const std::uint32_t lamp : lamps_with_size_) {
+      if (auto hit = intersect_light(lamps_[lamp], ray)) {
+        hit->pdf *= static_cast<float>(choices_.probability(lamp));
         visit(*hit);
       }
     }
   }
 
   [[nodiscard]] const Environment& environment() const { return environment_; }
-  [[nodiscard]] bool is_empty() const;  // nothing to sample
+  [[nodiscard]] bool is_empty() const { return !(choices_.total() > 0); }  // nothing to sample
 
  private:
-  [[nodiscard]] float lamp_probability(std::uint32_t lamp) const;
+  using Emitter = std::variant<MeshEmitter, SphereEmitter>;
 
   std::vector<Light> lamps_;
+  std::vector<std::uint32_t> lamps_with_size_;  // those that rays can run into
+  std::vector<Emitter> emitters_;
+  std::vector<std::uint32_t> emitter_of_instance_;  // index into emitters_, or no_emitter
+  DiscreteDistribution choices_;                    // lamps first, then emitters
   Environment environment_;
-  // (the light layer's own business)
 };
 
 }  // namespace basicrt

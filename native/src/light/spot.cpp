@@ -3,7 +3,7 @@
 #include "light/spot.h"
 
 #include "light/ball.h"
-#include "light/cone.h"
+#include "light/solid_angle.h"
 #include "math/warp.h"
 
 namespace basicrt {
@@ -36,18 +36,11 @@ float share_towards(const SpotLight& light, Vec3f direction) {
   return share_at(light, one_minus_cos_to_axis(inverse(TransformD(light.to_world)).vector(Vec3d(direction))));
 }
 
-// Local directions per world direction, as solid angles, around a local direction of unit length.
-double solid_angle_ratio(const SpotLight& light, Vec3d local) {
-  const TransformD to_world(light.to_world);
-  const double stretch = length(to_world.vector(local));
-  return stretch * stretch * stretch / std::abs(to_world.determinant());
-}
-
 float direction_pdf(const SpotLight& light, Vec3f direction) {
   const Vec3d local = inverse(TransformD(light.to_world)).vector(Vec3d(direction));
   const float cone = cone_of(light);
   if (one_minus_cos_to_axis(local) >= cone) return 0;
-  return pdf_cone(cone) * float(solid_angle_ratio(light, normalize(local)));
+  return pdf_cone(cone) * float(solid_angle_ratio(TransformD(light.to_world), normalize(local)));
 }
 
 }  // namespace
@@ -87,7 +80,7 @@ EmissionSample sample_lamp_emission(const SpotLight& light, Vec2f u_position, Ve
   const Vec3d in_cone(sample_cone(u_direction, cone));
   const Vec3d local{in_cone.x, in_cone.y, -in_cone.z};
   const Vec3f direction(normalize(TransformD(light.to_world).vector(local)));
-  const float pdf_direction = pdf_cone(cone) * float(solid_angle_ratio(light, local));
+  const float pdf_direction = pdf_cone(cone) * float(solid_angle_ratio(TransformD(light.to_world), local));
   const Color weight = light.intensity * (share_at(light, one_minus_cos_to_axis(local)) / pdf_direction);
   if (is_delta_lamp(light))
     return {.ray = {.origin = light.to_world.column(3), .direction = direction},
@@ -111,7 +104,7 @@ EmissionPdf lamp_emission_pdf(const SpotLight& light, Vec3f position, Vec3f dire
 // Exact where the scale is the same along every axis: the integral of the share over the cone.
 float lamp_power(const SpotLight& light, float) {
   const float solid_angle = 2 * pi * cone_of(light) * (1 - light.blend / 2);
-  const float squeezed = solid_angle / float(solid_angle_ratio(light, {0, 0, -1}));
+  const float squeezed = solid_angle / float(solid_angle_ratio(TransformD(light.to_world), {0, 0, -1}));
   return std::min(squeezed, 4 * pi) * luminance(light.intensity);
 }
 

@@ -2,7 +2,7 @@
 // One direction, or a cone of directions with the radiance irradiance / (pi sin^2(angle / 2)).
 #include "light/sun.h"
 
-#include "light/cone.h"
+#include "light/solid_angle.h"
 #include "math/frame.h"
 #include "math/warp.h"
 

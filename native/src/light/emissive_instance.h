@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A shape in the scene whose material shines.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/shape.h"
+#include "math/color.h"
+#include "math/transform.h"
+
+namespace basicrt {
+
+// The pointer must outlive whatever is made from this.
+struct EmissiveInstance {
+  std::uint32_t instance = 0;
+  const Shape* shape = nullptr;
+  TransformD object_to_world;
+  TransformD world_to_object;
+  // Radiance of each material slot's front and back.
+  std::vector<Color> front, back;
+};
+
+}  // namespace basicrt
