@@ -49,7 +49,7 @@ class TileAccumulator {
 
  private:
   struct Pixel {
-    float weight = 0, hit_weight = 0, alpha = 0;
+    float weight = 0, alpha = 0;
     Color radiance{0.0f};
     bool has_hit = false;
     float depth = 0;

@@ -14,7 +14,7 @@ namespace basicrt {
 class Sampler {
  public:
   Sampler() = default;
-  Sampler(Vec2i pixel, std::uint32_t sample, std::uint32_t seed)
+  Sampler(Vec2i pixel, std::uint32_t sample, std::uint64_t seed)
       : key_(hash(hash(seed, sample), (std::uint64_t(std::uint32_t(pixel.y)) << 32) | std::uint32_t(pixel.x))) {}
 
   [[nodiscard]] float next_1d() { return to_unit_float(static_cast<std::uint32_t>(hash(key_, dimension_++) >> 32)); }

@@ -29,6 +29,7 @@ struct PreparedScene {
   std::vector<PreparedInstance> instances;
   Tracer tracer;
   LightSet lights;
+  bool has_transparency = false;  // shadow rays must look at what they hit
 
   [[nodiscard]] const Material& material_of(const SurfacePoint& point) const {
     const std::vector<std::uint32_t>& slots = instances[point.instance].materials;

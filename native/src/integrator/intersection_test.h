@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The assignment's integrator: perfect refraction followed to a surface that is lit by one point light.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "integrator/integrator.h"
+
+namespace basicrt {
+
+class IntersectionTest final : public Integrator {
+ public:
+  explicit IntersectionTest(const PreparedScene& scene) : scene_(scene) {}
+  void render(std::span<const CameraPath> paths, std::span<PixelSample> samples) override;
+
+ private:
+  struct Path {
+    std::uint32_t sample;  // which of the batch's samples it is for
+    Ray ray;
+    Sampler sampler;
+    Color throughput{1.0f};
+    bool is_camera_ray = true;
+  };
+  struct ShadowTest {
+    std::uint32_t sample;
+    Color radiance;  // if nothing is in the way
+  };
+
+  void begin(std::span<const CameraPath> paths, std::span<PixelSample> samples);
+  void extend();                                 // finds each path's next hit
+  void shade(std::span<PixelSample> samples);    // refracts it, or asks for its light
+  void connect(std::span<PixelSample> samples);  // tests the shadow rays
+
+  const PreparedScene& scene_;
+  std::vector<Path> paths_, next_paths_;
+  std::vector<Ray> rays_;
+  std::vector<Hit> hits_;
+  std::vector<Ray> shadow_rays_;
+  std::vector<ShadowTest> shadow_tests_;
+  std::vector<std::uint8_t> occluded_;
+};
+
+}  // namespace basicrt

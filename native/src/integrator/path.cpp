@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Path tracing in three phases for a whole batch: extend, shade, connect.
+#include "integrator/path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrator/hit_shading.h"
+
+namespace basicrt {
+namespace {
+
+// Veach 1997, the power heuristic with exponent two.
+float power_heuristic(float pdf, float other_pdf) {
+  const float ratio = other_pdf / pdf;
+  return 1 / (1 + ratio * ratio);
+}
+
+std::uint32_t ray_kind(ScatterKind kind) {
+  switch (kind) {
+    case ScatterKind::diffuse:
+      return ray_diffuse;
+    case ScatterKind::glossy:
+      return ray_glossy;
+    case ScatterKind::transmission:
+      return ray_transmission;
+    case ScatterKind::transparent:
+      break;  // keeps the kind that it had
+  }
+  return 0;
+}
+
+// The ray goes on behind a hit. Its origin stays, so that densities are still measured from where it was scattered, and
+// the same triangle gives the same t again, which is now out of range.
+void continue_behind(Ray& ray, float t) { ray.t_min = std::nextafter(t, infinity); }
+
+}  // namespace
+
+void PathIntegrator::render(std::span<const CameraPath> paths, std::span<PixelSample> samples) {
+  begin(paths, samples);
+  while (!paths_.empty()) {
+    extend();
+    shade(samples);
+    connect(samples);
+  }
+}
+
+void PathIntegrator::begin(std::span<const CameraPath> paths, std::span<PixelSample> samples) {
+  camera_paths_ = paths;
+  paths_.clear();
+  for (std::uint32_t i = 0; i < paths.size(); ++i) {
+    samples[i] = PixelSample{};
+    paths_.push_back({.sample = i, .ray = paths[i].camera_ray.ray, .sampler = paths[i].sampler});
+  }
+}
+
+void PathIntegrator::extend() {
+  rays_.clear();
+  for (const Path& path : paths_) rays_.push_back(path.ray);
+  hits_.resize(rays_.size());
+  scene_.tracer.intersect(rays_, hits_);
+}
+
+void PathIntegrator::shade(std::span<PixelSample> samples) {
+  next_paths_.clear();
+  shadow_rays_.clear();
+  connections_.clear();
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    Path& path = paths_[i];
+    const Hit& hit = hits_[i];
+    PixelSample& sample = samples[path.sample];
+
+    gather_lamps(path, hit.is_hit() ? hit.t : path.ray.t_max, sample);
+    if (!hit.is_hit()) {
+      gather_environment(path, sample);
+      continue;
+    }
+
+    const RayDifferentials* differentials =
+        path.is_camera_ray ? &camera_paths_[path.sample].camera_ray.differentials : nullptr;
+    const SurfacePoint point = surface_point_at(scene_, path.ray, hit, differentials);
+    if (path.is_camera_ray && !sample.has_hit) record_first_hit(scene_, point, sample);
+
+    const SurfaceShading shading = shade_at(scene_, point, -path.ray.direction);
+    gather_emission(path, point, shading.emission, sample);
+    if (shading.bsdf.is_empty()) continue;
+    if (!path.is_last) sample_lights(path, point, shading.bsdf);
+    if (scatter(path, point, shading.bsdf, hit.t)) next_paths_.push_back(path);
+  }
+  paths_.swap(next_paths_);
+}
+
+// Lamps do not block rays: each one between the ray's ends adds its light.
+void PathIntegrator::gather_lamps(const Path& path, float t_end, PixelSample& sample) const {
+  Ray segment = path.ray;
+  segment.t_max = t_end;
+  scene_.lights.for_each_lamp_hit(segment, [&](const LightHit& hit) {
+    const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
+    sample.radiance += path.throughput * hit.radiance * weight;
+  });
+}
+
+void PathIntegrator::gather_environment(const Path& path, PixelSample& sample) const {
+  if (path.is_camera_ray && scene_.settings.is_film_transparent) {
+    sample.alpha = 1 - std::min(average(path.throughput), 1.0f);
+    return;
+  }
+  const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_environment());
+  sample.radiance += path.throughput * scene_.lights.environment().radiance * weight;
+}
+
+void PathIntegrator::gather_emission(const Path& path, const SurfacePoint& point, Color emission,
+                                     PixelSample& sample) const {
+  if (is_black(emission)) return;
+  const float weight =
+      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, path.ray.origin));
+  sample.radiance += path.throughput * emission * weight;
+}
+
+void PathIntegrator::sample_lights(Path& path, const SurfacePoint& point, const Bsdf& bsdf) {
+  if (bsdf.has_only_deltas() || scene_.lights.is_empty()) return;
+  const float choice = path.sampler.next_1d();
+  const std::optional<LightSample> light = scene_.lights.sample(point.position, choice, path.sampler.next_2d());
+  if (!light) return;
+  const BsdfValue reflected = bsdf.eval(-path.ray.direction, light->wi);
+  const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, reflected.pdf);
+  const Color radiance = path.throughput * reflected.value * light->radiance * (weight / light->pdf);
+  if (is_black(radiance)) return;
+  shadow_rays_.push_back(spawn_shadow_ray(point, light->wi, light->distance, path.ray.time));
+  connections_.push_back({path.sample, radiance, path.bounces.transparent});
+}
+
+// Sends the path on in a sampled direction. False where it ends.
+bool PathIntegrator::scatter(Path& path, const SurfacePoint& point, const Bsdf& bsdf, float hit_t) const {
+  const float choice = path.sampler.next_1d();
+  const std::optional<BsdfSample> scattered = bsdf.sample(-path.ray.direction, choice, path.sampler.next_2d());
+  if (!scattered || (path.is_last && scattered->kind != ScatterKind::transparent)) return false;
+  path.throughput *= scattered->weight;
+  if (is_black(path.throughput) || !count_bounce(path, scattered->kind)) return false;
+
+  if (scattered->kind == ScatterKind::transparent) {
+    continue_behind(path.ray, hit_t);
+    return true;
+  }
+  path.ray = spawn_ray(point, scattered->wi, ray_kind(scattered->kind), path.ray.time);
+  path.bsdf_pdf = scattered->pdf;
+  path.is_specular = scattered->is_delta;
+  path.is_camera_ray = false;
+  return survives_roulette(path);
+}
+
+// Blender counts one scattering more than its limits say, and after the last one still gathers what the next surface
+// emits. False where the path ends at once.
+bool PathIntegrator::count_bounce(Path& path, ScatterKind kind) const {
+  const RenderSettings& settings = scene_.settings;
+  Bounces& bounces = path.bounces;
+  if (kind == ScatterKind::transparent) return ++bounces.transparent <= settings.transparent_bounces;
+  const bool is_over = [&] {
+    switch (kind) {
+      case ScatterKind::diffuse:
+        return ++bounces.diffuse > settings.diffuse_bounces;
+      case ScatterKind::glossy:
+        return ++bounces.glossy > settings.glossy_bounces;
+      default:
+        return ++bounces.transmission > settings.transmission_bounces;
+    }
+  }();
+  path.is_last = ++bounces.total > settings.max_bounces || is_over;
+  return true;
+}
+
+// Unbiased: what survives with probability p counts 1/p.
+bool PathIntegrator::survives_roulette(Path& path) const {
+  constexpr int free_bounces = 3;  // early bounces carry most of the light
+  if (path.bounces.total <= free_bounces) return true;
+  const float importance = max_component(path.throughput);
+  if (importance >= scene_.settings.roulette_threshold) return true;
+  const float survival = importance / scene_.settings.roulette_threshold;
+  if (path.sampler.next_1d() >= survival) return false;
+  path.throughput *= 1 / survival;
+  return true;
+}
+
+void PathIntegrator::connect(std::span<PixelSample> samples) {
+  if (scene_.has_transparency) return connect_through_transparency(samples);
+  occluded_.resize(shadow_rays_.size());
+  scene_.tracer.occluded(shadow_rays_, occluded_);
+  for (std::size_t i = 0; i < connections_.size(); ++i)
+    if (!occluded_[i]) samples[connections_[i].sample].radiance += connections_[i].radiance;
+}
+
+// Advances all shadow rays together from surface to surface, dimmed by each, until they arrive or are black.
+void PathIntegrator::connect_through_transparency(std::span<PixelSample> samples) {
+  while (!shadow_rays_.empty()) {
+    hits_.resize(shadow_rays_.size());
+    scene_.tracer.intersect(shadow_rays_, hits_);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
+      Ray ray = shadow_rays_[i];
+      Connection connection = connections_[i];
+      if (!hits_[i].is_hit()) {
+        samples[connection.sample].radiance += connection.radiance;
+        continue;
+      }
+      if (++connection.transparent_bounces > scene_.settings.transparent_bounces) continue;
+      const SurfacePoint point = surface_point_at(scene_, ray, hits_[i]);
+      connection.radiance *= transparency(scene_.material_of(point), scene_.textures, point, -ray.direction);
+      if (is_black(connection.radiance)) continue;
+      continue_behind(ray, hits_[i].t);
+      shadow_rays_[kept] = ray;
+      connections_[kept] = connection;
+      ++kept;
+    }
+    shadow_rays_.resize(kept);
+    connections_.resize(kept);
+  }
+}
+
+}  // namespace basicrt

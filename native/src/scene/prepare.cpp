@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Builds the trees and the lights of a scene.
+#include "scene/prepare.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bsdf/bsdf.h"
+
+namespace basicrt {
+namespace {
+
+BvhConfig bvh_config(const RenderSettings& settings) {
+  BvhConfig config;
+  config.builder = settings.bvh_builder;
+  return config;
+}
+
+// The shape as it can be traced, or nothing where there is no surface to hit.
+std::optional<Shape> usable_shape(const Shape& shape, const std::string& item, Report& report) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  if (!mesh) return shape;
+  Mesh cleaned = remove_degenerate_triangles(*mesh, item, report);
+  if (!cleaned.triangles.empty()) return cleaned;
+  report.warn(item + ": the mesh has no triangles and is left out");
+  return std::nullopt;
+}
+
+// Copies the shapes and builds a tree for each, taking over from `previous` what has not changed. An empty shape keeps its
+// place, with an empty mesh that is never instanced.
+std::vector<ShapeTree> prepare_shapes(const Scene& scene, Report& report, PreparedScene& previous,
+                                      PreparedScene& prepared) {
+  const BvhConfig config = bvh_config(scene.settings);
+  const bool is_same_builder = previous.settings.bvh_builder == scene.settings.bvh_builder;
+  std::vector<ShapeTree> previous_trees = previous.tracer.take_trees();
+
+  std::vector<ShapeTree> trees;
+  for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
+    const std::uint64_t revision = scene.shapes.revision(Id<Shape>{i});
+    prepared.shape_revisions.push_back(revision);
+    if (is_same_builder && i < previous_trees.size() && previous.shape_revisions[i] == revision) {
+      prepared.shapes.push_back(std::move(previous.shapes[i]));
+      trees.push_back(std::move(previous_trees[i]));
+      continue;
+    }
+    const std::string item = "shapes[" + std::to_string(i) + "]";
+    prepared.shapes.push_back(usable_shape(scene.shapes[i], item, report).value_or(Mesh{}));
+    trees.push_back(build_shape_tree(prepared.shapes.back(), config));
+  }
+  return trees;
+}
+
+bool is_empty(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return mesh && mesh->triangles.empty();
+}
+
+Material default_material() {
+  Material material;
+  material.name = "default";
+  material.surface = material.add(DiffuseShader{.color = Color(0.8f), .is_two_sided = true});
+  return material;
+}
+
+// For each slot, the index of its material among the prepared ones; the last of those is the default.
+std::vector<std::uint32_t> resolve_materials(const Instance& instance, std::uint32_t default_index) {
+  std::vector<std::uint32_t> slots;
+  for (const Id<Material> id : instance.materials) slots.push_back(id.is_valid() ? id.index : default_index);
+  if (slots.empty()) slots.push_back(default_index);
+  return slots;
+}
+
+std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::uint32_t index) {
+  const PreparedScene::PreparedInstance& instance = scene.instances[index];
+  EmissiveInstance result{.instance = index,
+                          .shape = &scene.shapes[instance.shape],
+                          .object_to_world = instance.object_to_world,
+                          .world_to_object = instance.world_to_object,
+                          .front = {},
+                          .back = {}};
+  bool shines = false;
+  for (const std::uint32_t material : instance.materials) {
+    shines = shines || is_emissive(scene.materials[material]);
+    result.front.push_back(emitted_radiance(scene.materials[material], /*is_backfacing=*/false));
+    result.back.push_back(emitted_radiance(scene.materials[material], /*is_backfacing=*/true));
+  }
+  return shines ? std::optional(std::move(result)) : std::nullopt;
+}
+
+}  // namespace
+
+PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous) {
+  validate(scene);
+
+  PreparedScene prepared;
+  prepared.camera = *scene.camera;
+  prepared.settings = scene.settings;
+  prepared.textures = scene.textures;
+  for (std::uint32_t i = 0; i < scene.materials.size(); ++i) prepared.materials.push_back(scene.materials[i]);
+  prepared.materials.push_back(default_material());
+
+  std::vector<ShapeTree> trees = prepare_shapes(scene, report, previous, prepared);
+
+  std::vector<TracedInstance> traced;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    if (is_empty(prepared.shapes[instance.shape.index])) continue;
+    const TransformD object_to_world(instance.object_to_world), world_to_object = inverse(object_to_world);
+    const auto default_index = static_cast<std::uint32_t>(prepared.materials.size() - 1);
+    prepared.instances.push_back({.shape = instance.shape.index,
+                                  .object_to_world = object_to_world,
+                                  .world_to_object = world_to_object,
+                                  .materials = resolve_materials(instance, default_index)});
+    traced.push_back({.shape = instance.shape.index,
+                      .object_to_world = object_to_world,
+                      .world_to_object = world_to_object,
+                      .visibility = instance.visibility});
+  }
+  for (const Material& material : prepared.materials)
+    prepared.has_transparency = prepared.has_transparency || is_transparent(material);
+  prepared.tracer = Tracer(std::move(trees), std::move(traced), bvh_config(scene.settings));
+
+  std::vector<Light> lamps;
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) lamps.push_back(scene.lights[i]);
+  std::vector<EmissiveInstance> emitters;
+  for (std::uint32_t i = 0; i < prepared.instances.size(); ++i)
+    if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i)) emitters.push_back(std::move(*emitter));
+  prepared.lights = LightSet(std::move(lamps), std::move(emitters), scene.environment, prepared.tracer.bounds());
+  return prepared;
+}
+
+}  // namespace basicrt
