@@ -25,7 +25,7 @@ class PathIntegrator final : public Integrator {
     Ray ray;
     Sampler sampler;
     Color throughput{1.0f};
-    Bounces bounces;
+    Bounces bounces = {};
     float bsdf_pdf = 0;       // of the last scattering's direction, over solid angle
     bool is_specular = true;  // no light sample could have found this ray (a camera ray, or after a delta lobe)
     bool is_last = false;     // only what the next surface emits still counts

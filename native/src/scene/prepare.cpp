@@ -83,8 +83,8 @@ std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::u
   bool shines = false;
   for (const std::uint32_t material : instance.materials) {
     shines = shines || is_emissive(scene.materials[material]);
-    result.front.push_back(emitted_radiance(scene.materials[material], /*is_backfacing=*/false));
-    result.back.push_back(emitted_radiance(scene.materials[material], /*is_backfacing=*/true));
+    result.front.push_back(emitted_radiance(scene.materials[material], SurfaceSide::front));
+    result.back.push_back(emitted_radiance(scene.materials[material], SurfaceSide::back));
   }
   return shines ? std::optional(std::move(result)) : std::nullopt;
 }
