@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/table.h"
+#include "bsdf/lobe.h"
 #include "bsdf/lobes.h"
 #include "geometry/surface_point.h"
 #include "math/color.h"
@@ -14,9 +15,6 @@
 #include "shading/material.h"
 
 namespace basicrt {
-
-// How a path was scattered: bounce limits and ray visibility go by it.
-enum class ScatterKind : std::uint8_t { diffuse, glossy, transmission, transparent };
 
 struct BsdfSample {
   Vec3f wi;       // world space
@@ -32,37 +30,62 @@ struct BsdfValue {
 };
 
 // The lobes of one surface point as seen from one direction, few and of fixed room, so that shading never allocates.
+// Light that the shading normal would let leak through the geometric surface is cut off: wi must lie on the same side
+// of both.
 class Bsdf {
  public:
-  static constexpr int max_lobes = 8;
+  static constexpr int max_lobes = 16;
 
   Bsdf() = default;
-  // `shading_normal` and `geometric_normal` keep the surface's own side, as in SurfacePoint.
+  // The normals keep the surface's own side, as in SurfacePoint.
   Bsdf(const Frame& shading_frame, Vec3f geometric_normal)
       : frame_(shading_frame), geometric_normal_(geometric_normal) {}
 
-  // Adds a lobe with a colour weight. Lobes past max_lobes are merged into none: the compiler of materials sees to
-  // it that there are never more (validate() refuses such a material).
-  void add(const Lobe& lobe, Color weight);
+  // Adds a lobe with a colour weight; black ones are left out. `albedo` is a guess of the share that the lobe itself
+  // reflects or transmits: lobes are picked in proportion. Never more than max_lobes: validate() has refused such a
+  // material.
+  void add(const Lobe& lobe, Color weight, Color albedo = Color(1.0f));
 
+  // wo is the direction that the lobes were made for.
   [[nodiscard]] BsdfValue eval(Vec3f wo, Vec3f wi) const;
   // `choice` picks the lobe, `u` the direction. Nothing where the light is absorbed.
   [[nodiscard]] std::optional<BsdfSample> sample(Vec3f wo, float choice, Vec2f u) const;
 
   [[nodiscard]] bool has_only_deltas() const;  // then eval() is zero everywhere and lights need not be sampled
   [[nodiscard]] bool is_empty() const { return count_ == 0; }
-  [[nodiscard]] Color albedo_estimate() const;  // a cheap guess of the reflected share, for Russian roulette and passes
+  // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
+  [[nodiscard]] Color albedo_estimate() const { return albedo_; }
+
+  // The frame's tangent matters only to stretched lobes.
+  void set_frame(const Frame& shading_frame) { frame_ = shading_frame; }
 
  private:
   struct WeightedLobe {
     Lobe lobe;
     Color weight;
-    float selection = 0;  // probability, adds up to one
+    float selection;  // in proportion to the probability of being picked; all of them add up to selection_
   };
+  // Room for a lobe that is made when it is added: constructing sixteen would cost more than shading does.
+  union Slot {
+    Slot() {}  // NOLINT: not yet a lobe
+    WeightedLobe filled;
+  };
+
+  // The directions as the lobes want them: z is the shading normal on wo's side of the surface.
+  struct Side {
+    float sign;  // -1: wo is at the back of the surface
+    Vec3f wo;
+  };
+  [[nodiscard]] Side find_side(Vec3f wo) const;
+  [[nodiscard]] bool leaks(const Side& side, Vec3f world_wi, Vec3f local_wi) const;
+  [[nodiscard]] LobeValue eval_lobes(Vec3f wo, Vec3f wi, int except) const;
+
   Frame frame_;
   Vec3f geometric_normal_{0, 0, 1};
-  WeightedLobe lobes_[max_lobes];
+  Color albedo_{0.0f};
+  float selection_ = 0;
   int count_ = 0;
+  Slot lobes_[max_lobes];
 };
 
 // What a material does at a surface point seen from wo: scatters, emits, and lets through unscattered.
@@ -78,6 +101,14 @@ struct SurfaceShading {
 [[nodiscard]] Color transparency(const Material& material, const Table<Texture>& textures, const SurfacePoint& point,
                                  Vec3f wo);
 [[nodiscard]] bool is_transparent(const Material& material);  // may transparency() be anything but black
+
+// What the front (where the normal points) or the back of a surface emits, in every direction alike.
+enum class SurfaceSide : std::uint8_t { front, back };
+[[nodiscard]] Color emitted_radiance(const Material& material, SurfaceSide side);
 [[nodiscard]] bool is_emissive(const Material& material);
+
+// The most lobes that the material can make anywhere, and at least one for each way through its graph: what
+// validate() holds against Bsdf::max_lobes.
+[[nodiscard]] int lobe_count(const Material& material);
 
 }  // namespace basicrt

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What can be said of a material without shading it: transparency, emission, how many lobes it takes.
+#include <algorithm>
+#include <vector>
+
+#include "base/overloaded.h"
+#include "bsdf/bsdf.h"
+#include "bsdf/shader_graph.h"
+
+namespace basicrt {
+
+Color transparency(const Material& material, const Table<Texture>& textures, const SurfacePoint& point, Vec3f /*wo*/) {
+  Color sum(0.0f);
+  const Overloaded leaf{
+      [&](const TransparentShader& node, float weight) {
+        const ColorInput& color = node.color;
+        sum += (color.texture.is_valid() ? eval_texture(textures[color.texture], point.uv) : color.constant) * weight;
+      },
+      [&](const PrincipledShader& node, float weight) { sum += Color((1 - node.alpha) * weight); },
+      [](const auto& /*opaque*/, float) {}};
+  for_each_leaf(material, leaf);
+  return sum;
+}
+
+bool is_transparent(const Material& material) {
+  bool result = false;
+  const Overloaded leaf{[&](const TransparentShader& node, float) {
+                          result |= node.color.texture.is_valid() || !is_black(node.color.constant);
+                        },
+                        [&](const PrincipledShader& node, float) { result |= node.alpha < 1; },  //
+                        [](const auto& /*opaque*/, float) {}};
+  for_each_leaf(material, leaf);
+  return result;
+}
+
+Color emitted_radiance(const Material& material, SurfaceSide side) {
+  Color sum(0.0f);
+  const Overloaded leaf{
+      [&](const EmissionShader& node, float weight) {
+        if (node.is_two_sided || side == SurfaceSide::front) sum += node.radiance * weight;
+      },
+      [&](const PrincipledShader& node, float weight) { sum += node.emission * (node.alpha * weight); },
+      [](const auto& /*dark*/, float) {}};
+  for_each_leaf(material, leaf);
+  return sum;
+}
+
+bool is_emissive(const Material& material) {
+  return !is_black(emitted_radiance(material, SurfaceSide::front)) ||
+         !is_black(emitted_radiance(material, SurfaceSide::back));
+}
+
+namespace {
+
+// Each of the layers that flatten() makes of it.
+int count_lobes(const PrincipledShader& node) {
+  if (node.alpha == 0) return 1;
+  const bool is_dielectric = node.metallic < 1, is_opaque = is_dielectric && node.transmission < 1;
+  return (node.alpha < 1) + (node.metallic > 0) + (is_dielectric && node.transmission > 0) + 2 * is_opaque;
+}
+
+}  // namespace
+
+int lobe_count(const Material& material) {
+  // Not by for_each_leaf: the ways through a graph may be exponentially many, and this is what refuses them.
+  constexpr int many = 1 << 20;
+  std::vector<int> counts;
+  const auto count_of = [&](NodeIndex index) { return index < counts.size() ? counts[index] : 1; };
+  const Overloaded count{[&](const MixShader& node) { return count_of(node.first) + count_of(node.second); },
+                         [&](const AddShader& node) { return count_of(node.first) + count_of(node.second); },
+                         [](const PrincipledShader& node) { return count_lobes(node); }, [](const auto&) { return 1; }};
+  for (const ShaderNode& node : material.nodes) counts.push_back(std::min(std::visit(count, node), many));
+  return count_of(material.surface);
+}
+
+}  // namespace basicrt

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Materials, surface points and directions that the tests of scattering share.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "bsdf/bsdf.h"
+#include "math/warp.h"
+#include "support/chi_square.h"
+
+namespace basicrt::test {
+
+inline Material make_material(ShaderNode node) {
+  Material material;
+  material.surface = material.add(std::move(node));
+  return material;
+}
+
+inline Material make_mix(float factor, ShaderNode first, ShaderNode second) {
+  Material material;
+  const NodeIndex a = material.add(std::move(first)), b = material.add(std::move(second));
+  material.surface = material.add(MixShader{factor, a, b});
+  return material;
+}
+
+inline Material make_sum(ShaderNode first, ShaderNode second) {
+  Material material;
+  const NodeIndex a = material.add(std::move(first)), b = material.add(std::move(second));
+  material.surface = material.add(AddShader{a, b});
+  return material;
+}
+
+// A point whose normals are given, and the same for both unless said otherwise.
+inline SurfacePoint make_point(Vec3f geometric_normal, Vec3f shading_normal) {
+  SurfacePoint point;
+  point.geometric_normal = normalize(geometric_normal);
+  point.shading_normal = normalize(shading_normal);
+  const Frame frame = make_frame(point.shading_normal);
+  point.dpdu = frame.tangent;
+  point.dpdv = frame.bitangent;
+  return point;
+}
+inline SurfacePoint make_point(Vec3f normal = {0, 0, 1}) { return make_point(normal, normal); }
+
+// The direction at an angle to z, in degrees: more than 90 is behind the surface.
+inline Vec3f direction_at(float degrees, float azimuth_degrees = 30) {
+  const float theta = degrees * pi / 180, phi = azimuth_degrees * pi / 180;
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+inline Bsdf make_bsdf(const Material& material, const SurfacePoint& point, Vec3f wo) {
+  static const Table<Texture> no_textures;
+  return shade(material, no_textures, point, wo).bsdf;
+}
+
+struct NamedMaterial {
+  std::string name;
+  Material material;
+};
+
+// One or more of every kind, with and without deltas.
+inline std::vector<NamedMaterial> all_materials() {
+  const auto conductor = [](float alpha_x, float alpha_y, bool is_ggx) {
+    ConductorShader node;
+    node.alpha_x = alpha_x;
+    node.alpha_y = alpha_y;
+    node.is_ggx = is_ggx;
+    return make_material(node);
+  };
+  const auto principled = [](float metallic, float roughness, float transmission, float alpha) {
+    PrincipledShader node;
+    node.base_color = Color{0.8f, 0.4f, 0.2f};
+    node.metallic = metallic;
+    node.roughness = roughness;
+    node.transmission = transmission;
+    node.alpha = alpha;
+    return make_material(node);
+  };
+  return {
+      {"diffuse", make_material(DiffuseShader{Color{0.7f, 0.5f, 0.1f}, true})},
+      {"glossy, roughness .1", make_material(GlossyShader{Color(0.9f), 0.1f})},
+      {"glossy, roughness .5", make_material(GlossyShader{Color(0.9f), 0.5f})},
+      {"glossy, roughness 1", make_material(GlossyShader{Color(0.9f), 1})},
+      {"mirror", make_material(GlossyShader{Color(0.9f), 0})},
+      {"conductor, Beckmann, alpha .1", conductor(0.1f, 0.1f, false)},
+      {"conductor, Beckmann, alpha .5", conductor(0.5f, 0.5f, false)},
+      {"conductor, Beckmann, alphas .05 and .4", conductor(0.05f, 0.4f, false)},
+      {"conductor, GGX, alphas .05 and .4", conductor(0.05f, 0.4f, true)},
+      {"refraction, smooth", make_material(RefractionShader{Color(1.0f), 1.5f, 0})},
+      {"refraction, roughness .4", make_material(RefractionShader{Color(1.0f), 1.5f, 0.4f})},
+      {"glass, smooth", make_material(GlassShader{Color(1.0f), Color(1.0f), 1.5f, 0})},
+      {"glass, roughness .3", make_material(GlassShader{Color(1.0f), Color(1.0f), 1.5f, 0.3f})},
+      {"glass, roughness .8, index 2, tinted",
+       make_material(GlassShader{Color{0.9f, 0.5f, 0.1f}, Color{0.2f, 0.6f, 0.8f}, 2, 0.8f})},
+      {"glass, roughness .5, index .8", make_material(GlassShader{Color(1.0f), Color(1.0f), 0.8f, 0.5f})},
+      {"principled, dielectric", principled(0, 0.5f, 0, 1)},
+      {"principled, all of it", principled(0.3f, 0.4f, 0.5f, 0.7f)},
+      {"diffuse and mirror", make_mix(0.4f, DiffuseShader{Color(0.5f), true}, GlossyShader{Color(0.9f), 0})},
+      {"diffuse and glass",
+       make_mix(0.7f, DiffuseShader{Color(0.5f), true}, GlassShader{Color(1.0f), Color(1.0f), 1.5f, 0.5f})},
+      {"transparent and glossy", make_mix(0.5f, TransparentShader{Color(0.5f)}, GlossyShader{Color(0.9f), 0.4f})},
+  };
+}
+
+// The mean of sample weights: the share of a white sky's light that comes back.
+inline Vec3d directional_albedo(const Bsdf& bsdf, Vec3f wo, int count = 200000, std::uint64_t seed = 1) {
+  Rng rng(seed);
+  Vec3d sum(0.0);
+  for (int i = 0; i < count; ++i) {
+    const float choice = next_unit_float(rng);
+    if (const auto sample = bsdf.sample(wo, choice, next_unit_vec2(rng))) sum += Vec3d(sample->weight);
+  }
+  return sum * (1.0 / count);
+}
+
+}  // namespace basicrt::test
