@@ -5,9 +5,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import basicrt
 import bpy
 import numpy as np
+
+import basicrt
 
 from ..report import Report
 

@@ -6,10 +6,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import basicrt
 import bpy
 import numpy as np
 from mathutils import Matrix
+
+import basicrt
 
 from .. import compat
 from ..nodes import emission_of

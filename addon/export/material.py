@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-import basicrt
 import bpy
+
+import basicrt
 
 from ..nodes import translate_surface
 from ..report import Report

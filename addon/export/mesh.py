@@ -5,10 +5,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import basicrt
 import bpy
 import numpy as np
 from numpy.typing import NDArray
+
+import basicrt
 
 Floats = NDArray[np.float32]
 Integers = NDArray[np.int32]
@@ -17,6 +18,16 @@ Integers = NDArray[np.int32]
 def key(b_mesh: bpy.types.Mesh) -> int:
     """What tells evaluated meshes apart during one export; objects that share data share it."""
     return b_mesh.as_pointer()
+
+
+def convert_object(b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> basicrt.Mesh | None:
+    """convert() of an evaluated object's mesh, in edit mode too, where its arrays are empty."""
+    if not b_mesh.is_editmode:
+        return convert(b_mesh)
+    try:
+        return convert(b_object.to_mesh())
+    finally:
+        b_object.to_mesh_clear()
 
 
 def convert(b_mesh: bpy.types.Mesh) -> basicrt.Mesh | None:

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-import basicrt
 import bpy
+
+import basicrt
 
 _KINDS = {
     "visible_camera": basicrt.RayKind.CAMERA,

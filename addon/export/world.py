@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import basicrt
 import bpy
+
+import basicrt
 
 from ..nodes import emission_of
 from ..report import Report

@@ -8,8 +8,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-import basicrt
 import bpy
+
+import basicrt
 
 from .. import compat
 from ..report import Report

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import basicrt
 import bpy
+
+import basicrt
 
 from .. import compat
 from ..report import Report

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import basicrt
 import bpy
 import numpy as np
+
+import basicrt
 
 from .. import compat
 from ..export import camera, light, material, mesh, settings, visibility, world
@@ -103,7 +104,7 @@ class _InstanceExport:
         key = mesh.key(b_mesh)
         if key not in self._shapes:
             try:
-                shape = mesh.convert(b_mesh)
+                shape = mesh.convert_object(b_object, b_mesh)
             except basicrt.SceneError as error:
                 raise ExportError(f'object "{b_object.name}": {error}') from error
             self._shapes[key] = None if shape is None else self._scene.shapes.append(shape)
