@@ -44,6 +44,31 @@ inline double sampled_power(const Light& light, Vec3f scene_center, float scene_
   return sum / n;
 }
 
+// Watts on the square [-1, 1]^2 in the plane z = 0, from above: by paths that start at the lamp,
+inline double watts_by_emission(const Light& light, int n = 400000) {
+  Rng rng(12);
+  double sum = 0;
+  for (int i = 0; i < n; ++i) {
+    const Vec2f u_position = next_unit_vec2(rng), u_direction = next_unit_vec2(rng);
+    const auto sample = sample_emission(light, u_position, u_direction, Vec3f(0), 2);
+    if (!sample || sample->ray.direction.z >= 0) continue;
+    const Vec3f place = sample->ray.at(-sample->ray.origin.z / sample->ray.direction.z);
+    if (std::abs(place.x) < 1 && std::abs(place.y) < 1) sum += sample->weight.x;
+  }
+  return sum / n;
+}
+// and by samples from the square towards the lamp.
+inline double watts_by_sampling(const Light& light, int n = 400000) {
+  Rng rng(13);
+  double sum = 0;
+  for (int i = 0; i < n; ++i) {
+    const Vec2f u = next_unit_vec2(rng);
+    const auto sample = sample_light(light, {2 * u.x - 1, 2 * u.y - 1, 0}, next_unit_vec2(rng));
+    if (sample) sum += 4.0 * sample->radiance.x * std::max(0.0f, sample->wi.z) / sample->pdf;
+  }
+  return sum / n;
+}
+
 inline Transform translation(Vec3f t) { return Transform({{{1, 0, 0, t.x}, {0, 1, 0, t.y}, {0, 0, 1, t.z}}}); }
 inline Transform scaling(Vec3f s) { return Transform({{{s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}}}); }
 inline Vec3f random_direction(Rng& rng) { return to_direction(Vec2d(next_unit_vec2(rng))); }

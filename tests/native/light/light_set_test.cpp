@@ -86,7 +86,7 @@ void for_each_surface_hit(const EmissiveInstance& emitter, Vec3d origin, Vec3d d
   visit_at(near > 0 ? near : far, 0);
 }
 
-ChiSquareResult compare_with_density(const Scene& scene, Vec3f position, int samples = 100000) {
+ChiSquareResult compare_with_density(const Scene& scene, Vec3f position) {
   const LightSet lights = scene.lights();
   const auto sample = [&](Rng& rng) -> std::optional<Vec3f> {
     const float choice = next_unit_float(rng);
@@ -102,7 +102,7 @@ ChiSquareResult compare_with_density(const Scene& scene, Vec3f position, int sam
                            [&](const SurfacePoint& point) { sum += lights.pdf_surface(point, position); });
     return sum;
   };
-  return chi_square_sphere(sample, density, {.samples = samples});
+  return chi_square_sphere(sample, density, {.samples = 50000, .pilot_samples = 20000});
 }
 
 // In the first channel, on a surface that faces `normal`.
@@ -127,24 +127,86 @@ TEST(LightSet, samples_of_triangles_of_any_size_follow_their_density) {
   }
 }
 
-TEST(LightSet, samples_of_meshes_spheres_and_lamps_together_follow_their_density) {
-  Rng rng(21);
-  Scene scene;
+// Lamps and shapes of every kind, some with black sides, one mirrored and one stretched.
+void add_a_bit_of_everything(Scene& scene, Rng& rng) {
   scene.lamps = {PointLight{.position = {2, 0, 1}, .intensity = Color(2), .radius = 0.3f},
                  SunLight{.direction = {0, 1, -1}, .irradiance = Color(0.2f), .angle = 0.4f},
                  AreaLight{.to_world = translation({-2, 1, 3}), .radiance = Color(3)}};
   const Color off(0.0f);
   scene.add(random_mesh(7, rng), TransformD(translation({0, 3, 0}) * random_rotation(rng)), {Color(1), off, Color(3)},
             {off, Color(2), Color(1)});
-  scene.add(random_mesh(5, rng), TransformD(translation({0, -4, 0}) * scaling({-1, 2, 0.5f})), {Color(2), off},
+  scene.add(random_mesh(8, rng), TransformD(translation({0, -4, 0}) * scaling({-1, 2, 0.5f})), {Color(2), Color(1)},
             {off, off});
   scene.add(Sphere{{0.5f, 0, 0}, 0.5f},
             TransformD(translation({-3, 0, 0}) * random_rotation(rng) * scaling({1, 2, 0.3f})), {Color(1)}, {off});
-  const std::vector<Vec3f> places = {{0, 0, 0}, {1, 2, -1}, {0.3f, -3, 0.2f}};
-  for (const Vec3f place : places) {
-    const auto result = compare_with_density(scene, place);
-    EXPECT_GT(result.p_value, sidak_threshold(3)) << result.describe() << ", scene of seed 21";
+}
+
+// Calls visit(source, pdf) for everything in a direction; shapes come after the lamps.
+template <class Visitor>
+void for_each_density(const Scene& scene, const LightSet& lights, Vec3f position, Vec3f wi, Visitor&& visit) {
+  lights.for_each_lamp_hit({.origin = position, .direction = wi}, [&](const LightHit& hit) { visit(0u, hit.pdf); });
+  for (std::uint32_t i = 0; i < scene.emitters.size(); ++i)
+    for_each_surface_hit(scene.emitters[i], Vec3d(position), Vec3d(wi),
+                         [&](const SurfacePoint& point) { visit(i + 1, lights.pdf_surface(point, position)); });
+}
+
+TEST(LightSet, each_sample_has_the_density_of_what_lies_in_its_direction) {
+  Rng rng(21);
+  Scene scene;
+  add_a_bit_of_everything(scene, rng);
+  const LightSet lights = scene.lights();
+  std::vector<int> found(scene.emitters.size() + 1);
+  for (const Vec3f place : {Vec3f{0, 0, 0}, Vec3f{1, 2, -1}, Vec3f{0.3f, -3, 0.2f}})
+    for (int i = 0; i < 20000; ++i) {
+      const float choice = next_unit_float(rng);
+      const auto sample = lights.sample(place, choice, next_unit_vec2(rng));
+      if (!sample) continue;
+      double nearest = infinity;
+      std::uint32_t nearest_source = 0;
+      for_each_density(scene, lights, place, sample->wi, [&](std::uint32_t source, float pdf) {
+        if (std::abs(pdf / sample->pdf - 1) >= nearest) return;
+        nearest = std::abs(pdf / sample->pdf - 1);
+        nearest_source = source;
+      });
+      ASSERT_LT(nearest, 1e-4) << "seed 21";
+      ++found[nearest_source];
+    }
+  // None of them is a bystander.
+  for (const int count : found) EXPECT_GT(count, 500) << "seed 21";
+}
+
+TEST(LightSet, density_over_all_directions_is_the_share_of_choices_that_give_a_sample) {
+  Rng rng(25);
+  Scene scene;
+  add_a_bit_of_everything(scene, rng);
+  const LightSet lights = scene.lights();
+  constexpr int n = 400000;
+  for (const Vec3f place : {Vec3f{0, 0, 0}, Vec3f{0.3f, -3, 0.2f}}) {
+    int accepted = 0;
+    double sum = 0, sum_of_squares = 0;
+    for (int i = 0; i < n; ++i) {
+      const float choice = next_unit_float(rng);
+      accepted += lights.sample(place, choice, next_unit_vec2(rng)).has_value();
+      double density = 0;
+      for_each_density(scene, lights, place, random_direction(rng), [&](std::uint32_t, float pdf) { density += pdf; });
+      density *= 4 * double(pi);
+      sum += density;
+      sum_of_squares += density * density;
+    }
+    const double mean = sum / n, deviation = std::sqrt((sum_of_squares / n - mean * mean + 0.25) / n);
+    EXPECT_NEAR(mean, double(accepted) / n, 4 * deviation) << "seed 25";
+    EXPECT_LT(4 * deviation, 0.05);  // or it would say little
   }
+}
+
+TEST(LightSet, samples_of_a_stretched_sphere_follow_their_density) {
+  Rng rng(26);
+  Scene scene;
+  scene.add(Sphere{{0.5f, 0, 0}, 0.5f},
+            TransformD(translation({-3, 0, 0}) * random_rotation(rng) * scaling({1, 2, 0.3f})), {Color(1)},
+            {Color(0.0f)});
+  const auto result = compare_with_density(scene, {0, 0, 0});
+  EXPECT_GT(result.p_value, sidak_threshold(1)) << result.describe() << ", scene of seed 26";
 }
 
 TEST(LightSet, samples_from_within_an_ellipsoid_follow_their_density) {

@@ -65,7 +65,7 @@ std::vector<NamedLamp> deltas() {
           {"sun", SunLight{}}};
 }
 
-std::vector<Vec3f> positions() { return {{0, 0, 0}, {0.7f, -0.4f, 0.1f}, {-1, 2, 1.2f}}; }
+std::vector<Vec3f> positions() { return {{0.7f, -0.4f, 0.1f}, {-1, 2, 1.2f}}; }
 
 TEST(Lights, samples_follow_their_density) {
   const double threshold = sidak_threshold(int(lamps_with_size().size() * positions().size()));
@@ -77,7 +77,7 @@ TEST(Lights, samples_follow_their_density) {
         return s->wi;
       };
       const auto pdf = [&](Vec3f wi) { return double(light_pdf(lamp.light, position, wi)); };
-      const ChiSquareResult result = chi_square_sphere(sample, pdf, {.samples = 100000});
+      const ChiSquareResult result = chi_square_sphere(sample, pdf, {.samples = 50000, .pilot_samples = 20000});
       EXPECT_GT(result.p_value, threshold) << lamp.name << ": " << result.describe();
     }
 }
@@ -238,7 +238,7 @@ TEST(Lights, emission_directions_follow_their_density) {
       const Vec3f place = point ? point->position + direction * point->radius : Vec3f{0, 0, 0};
       return double(emission_pdf(lamp.light, place, direction, 3).direction);
     };
-    const ChiSquareResult result = chi_square_sphere(sample, pdf, {.samples = 100000});
+    const ChiSquareResult result = chi_square_sphere(sample, pdf, {.samples = 50000, .pilot_samples = 20000});
     EXPECT_GT(result.p_value, threshold) << lamp.name << ": " << result.describe();
   }
 }
