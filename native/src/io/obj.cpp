@@ -5,20 +5,16 @@
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include "base/error.h"
 #include "io/file.h"
+#include "io/triangulate.h"
 
 namespace basicrt {
 namespace {
-
-struct ObjData {
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-};
 
 // tinyobjloader reads what is no number as 0.
 void check_numbers(const std::string& text, const std::string& name) {
@@ -29,79 +25,81 @@ void check_numbers(const std::string& text, const std::string& name) {
     std::string keyword, word;
     words >> keyword;
     if (keyword != "v" && keyword != "vn" && keyword != "vt") continue;
+    const std::string place = name + ":" + std::to_string(number);
     int count = 0;
     for (; words >> word && word[0] != '#'; ++count)
       if (word.find_first_not_of("+-.0123456789eE") != std::string::npos)
-        throw SceneError(name + ":" + std::to_string(number), "\"" + word + "\" is not a finite number");
+        throw SceneError(place, "\"" + word + "\" is not a finite number");
     const int expected = keyword == "vt" ? 1 : 3;
-    if (count < expected)
-      throw SceneError(name + ":" + std::to_string(number),
-                       keyword + " needs " + std::to_string(expected) + " numbers");
+    if (count < expected) throw SceneError(place, keyword + " needs " + std::to_string(expected) + " numbers");
   }
 }
 
-ObjData parse(const std::string& text, const std::string& name, bool triangulate) {
-  ObjData data;
-  std::istringstream stream(text);
-  std::string warnings, errors;  // the warnings are of materials, which are not read, and of what is checked here
-  if (!tinyobj::LoadObj(&data.attributes, &data.shapes, nullptr, &warnings, &errors, &stream, nullptr, triangulate))
-    throw SceneError(name, errors.substr(0, errors.find('\n')));
-  return data;
-}
+// The faces of a file as they come in.
+class MeshBuilder {
+ public:
+  MeshBuilder(std::string name, Report& report) : name_(std::move(name)), report_(report) {}
 
-void check_index(int index, std::size_t count, const char* what, const std::string& name) {
-  if (index < 0 || static_cast<std::size_t>(index) >= count)
-    throw SceneError(name, "a face refers to " + std::string(what) + " " + std::to_string(index + 1) +
-                               ", but there are " + std::to_string(count));
-}
-
-void check_indices(const ObjData& data, const std::string& name) {
-  for (const tinyobj::shape_t& shape : data.shapes) {
-    for (const tinyobj::index_t& index : shape.mesh.indices) {
-      check_index(index.vertex_index, data.attributes.vertices.size() / 3, "vertex", name);
-      if (index.normal_index != -1) check_index(index.normal_index, data.attributes.normals.size() / 3, "normal", name);
-      if (index.texcoord_index != -1)
-        check_index(index.texcoord_index, data.attributes.texcoords.size() / 2, "texture coordinate", name);
-    }
-  }
-}
-
-Vec3f vector_at(const std::vector<float>& numbers, int index) {
-  const std::size_t first = std::size_t{3} * static_cast<std::size_t>(index);
-  return {numbers[first], numbers[first + 1], numbers[first + 2]};
-}
-
-// Each corner's index triple, three for each triangle.
-std::vector<tinyobj::index_t> collect_corners(const ObjData& data) {
-  std::vector<tinyobj::index_t> corners;
-  for (const tinyobj::shape_t& shape : data.shapes)
-    corners.insert(corners.end(), shape.mesh.indices.begin(), shape.mesh.indices.end());
-  return corners;
-}
-
-Mesh make_mesh(const ObjData& data) {
-  const tinyobj::attrib_t& attributes = data.attributes;
-  const std::vector<tinyobj::index_t> corners = collect_corners(data);
-  const auto has = [&](int tinyobj::index_t::* index) {
-    return std::ranges::none_of(corners, [&](const tinyobj::index_t& corner) { return corner.*index < 0; });
-  };
-
-  Mesh mesh;
-  for (int i = 0; i < static_cast<int>(attributes.vertices.size() / 3); ++i)
-    mesh.positions.push_back(vector_at(attributes.vertices, i));
-  for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-    mesh.triangles.push_back({static_cast<std::uint32_t>(corners[i].vertex_index),
-                              static_cast<std::uint32_t>(corners[i + 1].vertex_index),
-                              static_cast<std::uint32_t>(corners[i + 2].vertex_index)});
-  if (has(&tinyobj::index_t::normal_index))
-    for (const tinyobj::index_t& corner : corners)
-      mesh.corner_normals.push_back(vector_at(attributes.normals, corner.normal_index));
-  if (has(&tinyobj::index_t::texcoord_index))
+  void add_position(Vec3f position) { mesh_.positions.push_back(position); }
+  void add_normal(Vec3f normal) { normals_.push_back(normal); }
+  void add_uv(Vec2f uv) { uvs_.push_back(uv); }
+  void add_face(std::span<const tinyobj::index_t> corners) {
+    if (corners.size() < 3) return report_.warn(name_ + ": faces of fewer than three corners are left out");
+    std::vector<Vec3f> polygon;
+    std::vector<std::uint32_t> vertices;
     for (const tinyobj::index_t& corner : corners) {
-      const float* uv = attributes.texcoords.data() + std::size_t{2} * static_cast<std::size_t>(corner.texcoord_index);
-      mesh.uvs.emplace_back(uv[0], uv[1]);
+      vertices.push_back(resolve(corner.vertex_index, mesh_.positions.size(), "vertex"));
+      polygon.push_back(mesh_.positions[vertices.back()]);
     }
-  return mesh;
+    for (const auto& triangle : triangulate(polygon)) {
+      mesh_.triangles.push_back({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
+      for (const std::uint32_t corner : triangle) add_corner(corners[corner]);
+    }
+  }
+
+  // Normals and uvs only where every corner has them.
+  Mesh finish() {
+    if (mesh_.corner_normals.size() != 3 * mesh_.triangles.size()) mesh_.corner_normals.clear();
+    if (mesh_.uvs.size() != 3 * mesh_.triangles.size()) mesh_.uvs.clear();
+    return std::move(mesh_);
+  }
+
+ private:
+  void add_corner(const tinyobj::index_t& corner) {
+    // No index at all is a 0 too.
+    if (corner.normal_index != 0)
+      mesh_.corner_normals.push_back(normals_[resolve(corner.normal_index, normals_.size(), "normal")]);
+    if (corner.texcoord_index != 0)
+      mesh_.uvs.push_back(uvs_[resolve(corner.texcoord_index, uvs_.size(), "texture coordinate")]);
+  }
+
+  // OBJ counts from 1, or from the end with negative numbers.
+  [[nodiscard]] std::uint32_t resolve(int index, std::size_t count, const char* what) const {
+    const std::int64_t absolute = index > 0 ? index - 1 : static_cast<std::int64_t>(count) + index;
+    if (index == 0 || absolute < 0 || absolute >= static_cast<std::int64_t>(count))
+      throw SceneError(name_, "a face refers to " + std::string(what) + " " + std::to_string(index) +
+                                  ", but there are " + std::to_string(count));
+    return static_cast<std::uint32_t>(absolute);
+  }
+
+  std::string name_;
+  Report& report_;
+  Mesh mesh_;
+  std::vector<Vec3f> normals_;
+  std::vector<Vec2f> uvs_;
+};
+
+MeshBuilder& builder_of(void* data) { return *static_cast<MeshBuilder*>(data); }
+
+tinyobj::callback_t make_callbacks() {
+  tinyobj::callback_t callbacks;
+  callbacks.vertex_cb = [](void* data, float x, float y, float z, float) { builder_of(data).add_position({x, y, z}); };
+  callbacks.normal_cb = [](void* data, float x, float y, float z) { builder_of(data).add_normal({x, y, z}); };
+  callbacks.texcoord_cb = [](void* data, float u, float v, float) { builder_of(data).add_uv({u, v}); };
+  callbacks.index_cb = [](void* data, tinyobj::index_t* indices, int count) {
+    builder_of(data).add_face(std::span<const tinyobj::index_t>(indices, static_cast<std::size_t>(count)));
+  };
+  return callbacks;
 }
 
 // A face whose corner normals point to its back is wound the other way.
@@ -122,9 +120,12 @@ void wind_by_normals(Mesh& mesh) {
 Mesh read_obj(const std::filesystem::path& path, Report& report) {
   const std::string text = read_file(path), name = path.string();
   check_numbers(text, name);
-  // Triangulating looks at the vertices: only when every index has been checked.
-  check_indices(parse(text, name, false), name);
-  Mesh mesh = make_mesh(parse(text, name, true));
+  MeshBuilder builder(name, report);
+  std::istringstream stream(text);
+  std::string warnings, errors;  // of materials, which are not read
+  if (!tinyobj::LoadObjWithCallback(stream, make_callbacks(), &builder, nullptr, &warnings, &errors))
+    throw SceneError(name, errors.substr(0, errors.find('\n')));
+  Mesh mesh = builder.finish();
   validate(mesh, name);
   wind_by_normals(mesh);
   if (mesh.triangles.empty()) report.warn(name + ": has no faces");

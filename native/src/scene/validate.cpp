@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a scene must fulfil before anything is built from it.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <variant>
@@ -146,10 +147,11 @@ void validate_camera(const CameraKind& camera) {
 
 void validate_border(const RenderSettings& settings) {
   const auto check = [](const char* name, std::int64_t begin, std::int64_t size, std::int64_t whole) {
-    if (begin + size > whole)
-      throw SceneError(std::string("settings.") + name, "the border ends at " + std::to_string(begin + size) +
-                                                            ", but the picture has " + std::to_string(whole) +
-                                                            " pixels");
+    const std::int64_t end = begin + std::max<std::int64_t>(size, 1);
+    if (end > whole)
+      throw SceneError(
+          std::string("settings.") + name,
+          "the border ends at " + std::to_string(end) + ", but the picture has " + std::to_string(whole) + " pixels");
   };
   check("border_width", settings.border_x, settings.border_width, settings.width);
   check("border_height", settings.border_y, settings.border_height, settings.height);
