@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command line: renderer scene.json -o out.exr
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <new>
+#include <string>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "io/exr.h"
+#include "io/file.h"
+#include "io/image_file.h"
+#include "io/scene_json.h"
+#include "render/session.h"
+
+namespace basicrt {
+namespace {
+
+constexpr int exit_interrupted = 128 + SIGINT;
+
+volatile std::sig_atomic_t is_interrupted = 0;
+
+// On a terminal one line that is written over and over, else a single line at the end.
+void show_progress(const Progress& progress, bool is_last) {
+  const bool is_terminal = isatty(STDERR_FILENO) == 1;
+  if (!is_terminal && !is_last) return;
+  std::fprintf(stderr, "%s%5.1f %%  %.2f Msamples/s  %.1f s, %.1f s left%s", is_terminal ? "\r\033[K" : "",
+               100 * progress.fraction, progress.samples_per_second * 1e-6, progress.elapsed_seconds,
+               progress.remaining_seconds, is_last ? "\n" : "");
+  std::fflush(stderr);
+}
+
+Image read_image(const std::filesystem::path& path) {
+  return path.extension() == ".exr" ? read_exr(path) : read_image_file(path);
+}
+
+PreparedScene load(const Arguments& arguments) {
+  Report report;
+  Scene scene =
+      load_scene(arguments.scene, report, {.override_json = arguments.override_json, .read_image = read_image});
+  if (arguments.samples) scene.settings.samples = *arguments.samples;
+  PreparedScene prepared = prepare(scene, report);
+  if (!arguments.is_quiet)
+    for (const std::string& warning : report.warnings()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  return prepared;
+}
+
+// The exit status.
+int run(const Arguments& arguments) {
+  check_writable(arguments.output);
+  Session session(load(arguments), {.threads = arguments.threads, .tile_size = arguments.tile_size});
+  const RenderSettings& settings = session.scene().settings;
+  Film film(settings.width, settings.height, settings.passes);
+  while (!session.is_done() && !is_interrupted) {
+    if (const auto tile = session.next_tile(std::chrono::milliseconds(100))) film.write(*tile);
+    if (!arguments.is_quiet) show_progress(session.progress(), false);
+  }
+  session.stop();
+  if (!arguments.is_quiet) show_progress(session.progress(), true);
+  if (is_interrupted) {
+    std::fprintf(stderr, "renderer: interrupted, no picture is written\n");
+    return exit_interrupted;
+  }
+  write_exr(arguments.output, film,
+            {{"software", "BasicRT " BASICRT_VERSION}, {"samples", std::to_string(settings.samples)}});
+  return 0;
+}
+
+}  // namespace
+}  // namespace basicrt
+
+int main(int argc, char** argv) {
+  using namespace basicrt;
+  std::signal(SIGINT, [](int) { is_interrupted = 1; });
+  try {
+    const Arguments arguments = parse_arguments(argc, argv);
+    if (!arguments.wants_help) return run(arguments);
+    std::fputs(usage, stdout);
+    return 0;
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "renderer: %s\n%s", error.what(), usage);
+    return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "renderer: there is not enough memory for this scene\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "renderer: %s\n", error.what());
+  }
+  return 1;
+}
