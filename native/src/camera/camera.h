@@ -19,11 +19,12 @@ struct PerspectiveCamera {
   float clip_near = 0, clip_far = infinity;  // depth along -z
   static constexpr std::string_view kind = "perspective";
   static constexpr auto fields() {
-    return std::tuple{field("transform", &PerspectiveCamera::to_world, "camera to world; looks along -z, y is up"),
-                      field("window_min", &PerspectiveCamera::window_min, "lower left corner on the plane z = -1"),
-                      field("window_max", &PerspectiveCamera::window_max, "upper right corner on the plane z = -1"),
-                      field("clip_near", &PerspectiveCamera::clip_near, "nothing nearer is seen, metres", at_least(0)),
-                      field("clip_far", &PerspectiveCamera::clip_far, "nothing farther is seen, metres", above_or_infinite(0))};
+    return std::tuple{
+        field("transform", &PerspectiveCamera::to_world, "camera to world; looks along -z, y is up"),
+        field("window_min", &PerspectiveCamera::window_min, "lower left corner on the plane z = -1"),
+        field("window_max", &PerspectiveCamera::window_max, "upper right corner on the plane z = -1"),
+        field("clip_near", &PerspectiveCamera::clip_near, "nothing nearer is seen, metres", at_least(0)),
+        field("clip_far", &PerspectiveCamera::clip_far, "nothing farther is seen, metres", above_or_infinite(0))};
   }
 };
 
@@ -34,11 +35,12 @@ struct OrthographicCamera {
   float clip_near = 0, clip_far = infinity;
   static constexpr std::string_view kind = "orthographic";
   static constexpr auto fields() {
-    return std::tuple{field("transform", &OrthographicCamera::to_world, "camera to world; looks along -z, y is up"),
-                      field("window_min", &OrthographicCamera::window_min, "lower left corner, metres"),
-                      field("window_max", &OrthographicCamera::window_max, "upper right corner, metres"),
-                      field("clip_near", &OrthographicCamera::clip_near, "nothing nearer is seen, metres", at_least(0)),
-                      field("clip_far", &OrthographicCamera::clip_far, "nothing farther is seen, metres", above_or_infinite(0))};
+    return std::tuple{
+        field("transform", &OrthographicCamera::to_world, "camera to world; looks along -z, y is up"),
+        field("window_min", &OrthographicCamera::window_min, "lower left corner, metres"),
+        field("window_max", &OrthographicCamera::window_max, "upper right corner, metres"),
+        field("clip_near", &OrthographicCamera::clip_near, "nothing nearer is seen, metres", at_least(0)),
+        field("clip_far", &OrthographicCamera::clip_far, "nothing farther is seen, metres", above_or_infinite(0))};
   }
 };
 
