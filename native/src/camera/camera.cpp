@@ -23,17 +23,22 @@ CameraRay make_ray(const PerspectiveCamera& camera, Vec2f pixel, Vec2i size) {
   const Vec2f step = window_step(camera.window_min, camera.window_max, size);
   const Vec3f local{p.x, p.y, -1};
   const float distance_per_depth = length(local);
-  const auto to_direction = [&](Vec3f v) { return normalize(camera.to_world.vector(v)); };
+  const Vec3f towards = camera.to_world.vector(local);
+  const float scale = 1 / length(towards);
 
   CameraRay result;
   Ray& ray = result.ray;
   ray.origin = camera.to_world.column(3);
-  ray.direction = to_direction(local);
+  ray.direction = towards * scale;
   ray.t_min = camera.clip_near * distance_per_depth;
   ray.t_max = camera.clip_far * distance_per_depth;
   ray.kinds = ray_camera;
-  result.differentials.direction_dx = to_direction(local + Vec3f{step.x, 0, 0}) - ray.direction;
-  result.differentials.direction_dy = to_direction(local + Vec3f{0, step.y, 0}) - ray.direction;
+  // The derivative of v / |v|, given that of v.
+  const auto direction_change = [&](Vec3f change) {
+    return (change - ray.direction * dot(ray.direction, change)) * scale;
+  };
+  result.differentials.direction_dx = direction_change(camera.to_world.column(0) * step.x);
+  result.differentials.direction_dy = direction_change(camera.to_world.column(1) * step.y);
   return result;
 }
 

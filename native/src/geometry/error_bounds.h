@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "math/constants.h"
+#include "math/next_float.h"
 #include "math/transform.h"
 
 namespace basicrt {
@@ -37,7 +37,7 @@ inline Vec3f round_up_with_float_error(Vec3d p, Vec3d error) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto rounded = static_cast<float>(p[i]);
     const double bound = error[i] + std::abs(p[i] - static_cast<double>(rounded));
-    result[i] = std::nextafter(static_cast<float>(bound), infinity);
+    result[i] = next_float_up(static_cast<float>(bound));
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include "base/overloaded.h"
 #include "geometry/error_bounds.h"
 #include "geometry/local_point.h"
+#include "math/next_float.h"
 
 namespace basicrt {
 namespace {
@@ -32,20 +33,16 @@ Vec3d world_error(const TransformD& object_to_world, const TransformD& world_to_
 void set_normals(SurfacePoint& point, const TransformD& world_to_object, const LocalPoint& local) {
   // By the inverse transpose, which keeps the outward side outward under mirroring too.
   const Vec3d geometric = direction_or(world_to_object.transposed_vector(local.normal), {0, 0, 1});
+  point.geometric_normal = point.shading_normal = Vec3f(geometric);
+
   const Vec3d shading = world_to_object.transposed_vector(local.shading_normal);
-  Vec3d unit = direction_or(shading, geometric);
   const double shading_length = length(shading);
-  const bool is_smooth = shading_length > 0 && std::isfinite(shading_length);
-  Vec3d dndu, dndv;
-  if (is_smooth) {
-    dndu = unit_derivative(unit, world_to_object.transposed_vector(local.dndu), shading_length);
-    dndv = unit_derivative(unit, world_to_object.transposed_vector(local.dndv), shading_length);
-  }
+  if (!(shading_length > 0 && std::isfinite(shading_length))) return;
+  const Vec3d unit = shading / shading_length;
   const double side = dot(unit, geometric) < 0 ? -1 : 1;
-  point.geometric_normal = Vec3f(geometric);
   point.shading_normal = Vec3f(unit * side);
-  point.dndu = Vec3f(dndu * side);
-  point.dndv = Vec3f(dndv * side);
+  point.dndu = Vec3f(unit_derivative(unit, world_to_object.transposed_vector(local.dndu), shading_length) * side);
+  point.dndv = Vec3f(unit_derivative(unit, world_to_object.transposed_vector(local.dndv), shading_length) * side);
 }
 
 // The least-squares solution of dpdu * du + dpdv * dv = offset.
@@ -115,7 +112,7 @@ Vec3f offset_origin(const SurfacePoint& point, Vec3f direction) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float offset = side * normal[axis] * distance;
     const float moved = point.position[axis] + offset;
-    result[axis] = normal[axis] == 0 ? moved : std::nextafter(moved, std::copysign(infinity, side * normal[axis]));
+    result[axis] = offset > 0 ? next_float_up(moved) : offset < 0 ? next_float_down(moved) : moved;
   }
   return result;
 }

@@ -24,6 +24,9 @@ std::array<double, 3> barycentric(const TriangleHit& exact, const Hit& hit) {
   return {1 - u - v, u, v};
 }
 
+// At least the length of v, without a root.
+double length_bound(Vec3d v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
 // Three parts: interpolation; the barycentrics, which a grazing ray leaves uncertain along the plane; and the plane
 // that the next ray's test will see, which is uncertain where the triangle is a sliver.
 Vec3d position_error(const Corners& p, const std::array<double, 3>& weights, Vec3d position, const PreciseRay& ray) {
@@ -31,12 +34,13 @@ Vec3d position_error(const Corners& p, const std::array<double, 3>& weights, Vec
   const Vec3d edge_sum = abs(edge1) + abs(edge2);
   const Vec3d interpolation = (abs(p[0] * weights[0]) + abs(p[1] * weights[1]) + abs(p[2] * weights[2])) * gamma(6);
   const Vec3d cross_product = cross(edge1, edge2);
-  const double area = length(cross_product), product = length(edge1) * length(edge2);
-  const double determinant = std::abs(dot(ray.direction, cross_product));
-  const double coordinates =
-      length(ray.direction) * (length(from_p0) + length(abs(p[0]) + abs(ray.origin))) * (length(edge1) + length(edge2));
+  const double area = max_component(abs(cross_product)), determinant = std::abs(dot(ray.direction, cross_product));
+  const double coordinates = length_bound(ray.direction) *
+                             (length_bound(from_p0) + length_bound(p[0]) + length_bound(ray.origin)) *
+                             length_bound(edge_sum);
   const double uncertainty = determinant > 0 ? gamma(16) * coordinates / determinant : 0;
-  const double plane = area > 0 ? gamma(16) * length(position - p[0]) * product / area : 0;
+  const double product = length_bound(edge1) * length_bound(edge2);
+  const double plane = area > 0 ? gamma(16) * length_bound(position - p[0]) * product / area : 0;
   return interpolation + edge_sum * uncertainty + Vec3d(plane);
 }
 
@@ -55,7 +59,8 @@ struct UvEdges {
   [[nodiscard]] bool is_usable() const { return determinant != 0 && std::isfinite(1 / determinant); }
   [[nodiscard]] Derivatives derivatives(const Corners& values) const {
     const Vec3d along1 = values[1] - values[0], along2 = values[2] - values[0];
-    return {(along1 * second.y - along2 * first.y) / determinant, (along2 * first.x - along1 * second.x) / determinant};
+    const double scale = 1 / determinant;
+    return {(along1 * second.y - along2 * first.y) * scale, (along2 * first.x - along1 * second.x) * scale};
   }
 };
 

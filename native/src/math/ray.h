@@ -32,7 +32,7 @@ struct Ray {
   [[nodiscard]] Vec3f at(float t) const { return origin + direction * t; }
 };
 
-// The rays one pixel to the right and one pixel up: what texture filtering and texture coordinates' derivatives need.
+// How the ray changes to the right and up, as derivatives: what texture filtering and texture coordinates' derivatives need.
 struct RayDifferentials {
   Vec3f origin_dx, origin_dy;        // change of the origin per pixel
   Vec3f direction_dx, direction_dy;  // change of the direction per pixel

@@ -54,19 +54,20 @@ TEST(Camera, orthographic_rays_are_parallel_and_start_on_the_window) {
   EXPECT_EQ(center.direction, lower_left.direction);
 }
 
-TEST(Camera, differentials_are_the_change_to_the_next_pixel) {
+TEST(Camera, differentials_are_the_change_over_a_small_step_on_the_film) {
+  constexpr float step = 1.0f / 16;
   const PerspectiveCamera perspective = make_look_at_camera({1, 2, 3}, {0, 0, 0}, {0, 1, 0}, 1, 2);
   OrthographicCamera orthographic;
   orthographic.to_world = perspective.to_world;
   for (const Camera& camera : {Camera(perspective), Camera(orthographic)}) {
     const Vec2f pixel{30.25f, 60.5f};
     const CameraRay ray = make_camera_ray(camera, pixel, size);
-    const Ray right = make_camera_ray(camera, pixel + Vec2f{1, 0}, size).ray;
-    const Ray above = make_camera_ray(camera, pixel + Vec2f{0, 1}, size).ray;
-    expect_near(ray.ray.direction + ray.differentials.direction_dx, right.direction, 1e-6f);
-    expect_near(ray.ray.direction + ray.differentials.direction_dy, above.direction, 1e-6f);
-    expect_near(ray.ray.origin + ray.differentials.origin_dx, right.origin, 1e-5f);
-    expect_near(ray.ray.origin + ray.differentials.origin_dy, above.origin, 1e-5f);
+    const Ray right = make_camera_ray(camera, pixel + Vec2f{step, 0}, size).ray;
+    const Ray above = make_camera_ray(camera, pixel + Vec2f{0, step}, size).ray;
+    expect_near(ray.ray.direction + ray.differentials.direction_dx * step, right.direction, 1e-6f);
+    expect_near(ray.ray.direction + ray.differentials.direction_dy * step, above.direction, 1e-6f);
+    expect_near(ray.ray.origin + ray.differentials.origin_dx * step, right.origin, 1e-5f);
+    expect_near(ray.ray.origin + ray.differentials.origin_dy * step, above.origin, 1e-5f);
   }
 }
 
