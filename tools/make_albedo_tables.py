@@ -40,7 +40,9 @@ def visible_normals(wo: Array, alpha: float, points: int) -> Array:
 def projected_area(w: Array, alpha: float) -> Array:
     """Of the microfacets seen from `w`, per macroscopic area."""
     cosine = np.abs(w[..., 2])
-    return np.asarray((cosine + np.sqrt(alpha**2 * (w[..., 0] ** 2 + w[..., 1] ** 2) + cosine**2)) / 2)
+    return np.asarray(
+        (cosine + np.sqrt(alpha**2 * (w[..., 0] ** 2 + w[..., 1] ** 2) + cosine**2)) / 2
+    )
 
 
 def shadowing(wo: Array, wi: Array, alpha: float) -> Array:
@@ -60,7 +62,9 @@ def fresnel(cosine: Array, eta: float) -> tuple[Array, Array]:
     return np.where(is_total, 1.0, (parallel**2 + perpendicular**2) / 2), transmitted
 
 
-def returned_shares(cosine: float, roughness: float, eta: float | None, points: int) -> tuple[float, float]:
+def returned_shares(
+    cosine: float, roughness: float, eta: float | None, points: int
+) -> tuple[float, float]:
     """What is reflected and what is refracted; without `eta` everything is reflected."""
     cosine = max(cosine, 1e-4)
     alpha = max(roughness, 1e-3) ** 2
