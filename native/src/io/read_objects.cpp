@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Objects: shapes placed in the world, with materials and, for the assignment's area lights, emission.
 #include <array>
+#include <span>
 #include <variant>
 
 #include "io/described_json.h"
@@ -10,8 +11,10 @@
 namespace basicrt {
 namespace {
 
-constexpr std::array<std::string_view, 8> object_keys = {"name",      "material_name", "materials",  "transform",
-                                                         "translate", "light",         "visibility", "shape"};
+// "shape", then what every object may have.
+constexpr std::array<std::string_view, 8> shape_object_keys = {"shape",     "name",      "material_name", "materials",
+                                                               "transform", "translate", "light",         "visibility"};
+constexpr auto object_keys = std::span(shape_object_keys).subspan(1);
 
 bool is_empty(const Shape& shape) {
   const Mesh* mesh = std::get_if<Mesh>(&shape);
@@ -21,7 +24,7 @@ bool is_empty(const Shape& shape) {
 Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
   const auto name = object.find("shape");
   if (!name) return read_shape(reader, object, object_keys);
-  object.check_keys(object_keys);
+  object.check_keys(shape_object_keys);
   return reader.shapes.resolve(*name);
 }
 

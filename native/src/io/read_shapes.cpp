@@ -54,7 +54,11 @@ Id<Shape> read_obj_shape(SceneReader& reader, const JsonValue& path_json) {
 }
 
 Id<Shape> read_mesh_shape(SceneReader& reader, const JsonValue& object) {
-  if (const auto path = object.find("path")) return read_obj_shape(reader, *path);
+  if (const auto path = object.find("path")) {
+    for (const char* key : {"positions", "triangles", "corner_normals", "uvs", "material_slots"})
+      if (object.find(key)) path->fail("give this or \"" + std::string(key) + "\", not both");
+    return read_obj_shape(reader, *path);
+  }
   return reader.scene.shapes.append(read_inline_mesh(object));
 }
 
