@@ -120,6 +120,8 @@ const BadScene bad_scenes[] = {
     {"few_normals",
      R"({"objects": [{"type": "mesh", "positions": [0,0,0, 1,0,0, 0,1,0], "triangles": [0,1,2], "corner_normals": [0,0,1]}]})",
      "objects[0]"},
+    {"two_meshes_in_one", R"({"objects": [{"type": "mesh", "path": "a.obj", "positions": [], "triangles": []}]})",
+     "objects[0].path: give this or \"positions\", not both"},
     {"missing_obj", R"({"objects": [{"type": "mesh", "path": "no/such/file.obj"}]})",
      "no/such/file.obj: can't be opened: No such file or directory"},
     {"few_pixels", R"({"textures": {"a": {"type": "image", "width": 2, "height": 2, "channels": 3, "pixels": [1]}}})",
