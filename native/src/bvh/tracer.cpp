@@ -1,57 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Walks the two levels of trees, one ray after another. Boxes are tested in single precision and never lose a hit;
+// Walks the two levels of trees with small batches of rays. Boxes are tested in single precision and never lose a hit;
 // the hits themselves are computed in double precision in the object's space.
 #include "bvh/tracer.h"
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "base/assert.h"
+#include "bvh/walk.h"
 #include "geometry/precise_ray.h"
 #include "geometry/sphere.h"
 
 namespace basicrt {
 namespace {
 
-// Looks for the nearest hit. Both queries say how far there is still something to look for.
+// Looks for the nearest hit.
 struct NearestQuery {
-  double t;
-  double u = 0, v = 0;
-  std::uint32_t instance = Hit::none, primitive = Hit::none;
+  using Result = Hit;
 
-  [[nodiscard]] double t_max() const { return t; }
-  [[nodiscard]] float box_t_max() const { return static_cast<float>(t); }
+  double t_max;  // nothing beyond is of interest
+  double u, v;
+  std::uint32_t instance, primitive;
+
+  void start(double ray_t_max) {
+    t_max = ray_t_max;
+    instance = primitive = Hit::none;
+  }
   // Of equal distances the lower numbers win, so that the answer doesn't depend on the order of the visits.
   void add(double hit_t, double hit_u, double hit_v, std::uint32_t hit_instance, std::uint32_t hit_primitive) {
-    const bool is_nearer =
-        hit_t < t ||
-        (hit_t == t && (hit_instance < instance || (hit_instance == instance && hit_primitive < primitive)));
-    if (!is_nearer) return;
-    t = hit_t, u = hit_u, v = hit_v;
+    if (std::tie(hit_t, hit_instance, hit_primitive) >= std::tie(t_max, instance, primitive)) return;
+    t_max = hit_t, u = hit_u, v = hit_v;
     instance = hit_instance, primitive = hit_primitive;
   }
-  [[nodiscard]] Hit hit() const {
+  [[nodiscard]] Hit result() const {
     if (instance == Hit::none) return {};
-    return {static_cast<float>(t), instance, primitive, static_cast<float>(u), static_cast<float>(v)};
+    return {static_cast<float>(t_max), instance, primitive, static_cast<float>(u), static_cast<float>(v)};
   }
 };
 
-// Looks for any hit.
+// Looks for any hit, after which nothing is near enough to be of interest.
 struct AnyQuery {
-  double t;
-  bool is_found = false;
+  using Result = std::uint8_t;
+  static constexpr double found = -std::numeric_limits<double>::infinity();
 
-  [[nodiscard]] double t_max() const { return t; }
-  [[nodiscard]] float box_t_max() const {
-    return is_found ? -std::numeric_limits<float>::infinity() : static_cast<float>(t);
-  }
-  void add(double, double, double, std::uint32_t, std::uint32_t) { is_found = true; }
+  double t_max;
+
+  void start(double ray_t_max) { t_max = ray_t_max; }
+  void add(double, double, double, std::uint32_t, std::uint32_t) { t_max = found; }
+  [[nodiscard]] std::uint8_t result() const { return t_max == found; }
 };
 
-// Zero times anything but a number is NaN.
 bool is_traceable(const Ray& ray) {
-  const Vec3f zero = ray.origin * 0.0f + ray.direction * 0.0f;
-  return zero.x + zero.y + zero.z == 0 && ray.t_min <= ray.t_max && ray.direction != Vec3f(0);
+  const Float4 origin = Float4::of(ray.origin.x, ray.origin.y, ray.origin.z, 0);
+  const Float4 direction = Float4::of(ray.direction.x, ray.direction.y, ray.direction.z, 0);
+  const Float4 largest = Float4::all(std::numeric_limits<float>::max());
+  const Mask4 is_finite_lane = (abs(origin) <= largest) & (abs(direction) <= largest);
+  const Mask4 is_zero_lane = direction == Float4::all(0);
+  return (is_finite_lane.bits() == 15) & (is_zero_lane.bits() != 15) & (ray.t_min <= ray.t_max);
 }
 
 bool is_translation(const TransformD& transform) {
@@ -80,11 +86,25 @@ Bounds3f world_bounds(const Bounds3f& local, const TracedInstance& instance) {
   return result;
 }
 
+// Takes a group of rays to the triangles of a mesh.
 template <class Query>
-float intersect_pairs(std::span<const TrianglePair> pairs, const PairRay& ray, std::uint32_t instance, Query& query) {
-  for (const TrianglePair& pair : pairs) {
-    const PairHits hits = intersect_pair(pair, ray, query.t_max());
-    if (hits.bits == 0) continue;
+struct MeshVisitor {
+  const MeshTree& tree;
+  const PreciseRay* rays;
+  std::uint32_t instance;
+  Query* queries;
+
+  [[nodiscard]] float t_max(RayIndex ray) const { return static_cast<float>(queries[ray].t_max); }
+  void visit_leaf(std::uint32_t first, std::uint32_t count, std::span<const RayIndex> group) {
+    for (const TrianglePair& pair : std::span(tree.pairs).subspan(first, count)) {
+      const PreparedPair prepared(pair);
+      for (const RayIndex ray : group) {
+        const PairHits hits = intersect_pair(prepared, rays[ray], queries[ray].t_max);
+        if (hits.bits != 0) add(queries[ray], hits, pair);
+      }
+    }
+  }
+  void add(Query& query, const PairHits& hits, const TrianglePair& pair) {
     alignas(16) double t[2], u[2], v[2];
     hits.t.store(t);
     hits.u.store(u);
@@ -92,30 +112,31 @@ float intersect_pairs(std::span<const TrianglePair> pairs, const PairRay& ray, s
     for (int lane = 0; lane < 2; ++lane)
       if (hits.bits >> lane & 1) query.add(t[lane], u[lane], v[lane], instance, pair.primitive[lane]);
   }
-  return query.box_t_max();
+};
+
+// Rays and queries are addressed by the numbers in the group.
+template <class Query>
+void intersect_geometry(const MeshTree& tree, const PreciseRay* rays, std::span<const RayIndex> group,
+                        std::uint32_t instance, Query* queries) {
+  MeshVisitor<Query> visitor{tree, rays, instance, queries};
+  WideBoxRay box_rays[batch_size];
+  // The box of a tree that is a single leaf was tested among the instances.
+  if (!tree.bvh.nodes.empty())
+    for (const RayIndex ray : group)
+      box_rays[ray].set(make_box_ray(rays[ray].origin, rays[ray].direction), static_cast<float>(rays[ray].t_min));
+  GroupWalk(tree.bvh, box_rays, visitor).visit(tree.bvh.root, group);
 }
 
 template <class Query>
-void intersect_tree(const MeshTree& tree, const PreciseRay& ray, const BoxRay& box_ray, std::uint32_t instance,
-                    Query& query) {
-  const PairRay pair_ray(ray);
-  const auto visit_leaf = [&](std::uint32_t first, std::uint32_t count) {
-    return intersect_pairs(std::span(tree.pairs).subspan(first, count), pair_ray, instance, query);
-  };
-  // The box of a tree that is a single leaf was tested with the instances.
-  if (tree.bvh.nodes.empty()) {
-    visit_leaf(tree.bvh.root.first, tree.bvh.root.count);
-    return;
-  }
-  walk(tree.bvh, WideBoxRay(box_ray, static_cast<float>(ray.t_min)), query.box_t_max(), visit_leaf);
-}
-
-template <class Query>
-void intersect_tree(const Sphere& sphere, PreciseRay ray, const BoxRay&, std::uint32_t instance, Query& query) {
-  ray.t_max = query.t_max();
-  if (const auto t = intersect_sphere(ray, sphere)) {
+void intersect_geometry(const Sphere& sphere, const PreciseRay* rays, std::span<const RayIndex> group,
+                        std::uint32_t instance, Query* queries) {
+  for (const RayIndex index : group) {
+    PreciseRay ray = rays[index];
+    ray.t_max = queries[index].t_max;
+    const auto t = intersect_sphere(ray, sphere);
+    if (!t) continue;
     const Vec2d uv = sphere_uv(ray.origin + ray.direction * *t - Vec3d(sphere.center));
-    query.add(*t, uv.x, uv.y, instance, 0);
+    queries[index].add(*t, uv.x, uv.y, instance, 0);
   }
 }
 
@@ -154,45 +175,75 @@ Tracer::Tracer(std::vector<ShapeTree> trees, std::vector<TracedInstance> instanc
   });
 }
 
+// Takes a group of rays to the instances.
 template <class Query>
-void Tracer::trace_instance(const PlacedInstance& instance, const Ray& ray, Query& query) const {
-  if ((instance.visibility & ray.kinds) == 0) return;
-  const PreciseRay local = transform_ray(instance.world_to_object, ray);
-  const BoxRay box_ray = make_box_ray(local.origin, local.direction);
-  std::visit([&](const auto& geometry) { intersect_tree(geometry, local, box_ray, instance.index, query); },
-             trees_[instance.shape].geometry);
-}
+struct Tracer::InstanceVisitor {
+  const Tracer& tracer;
+  const Ray* rays;
+  Query* queries;
+  PreciseRay local_rays[batch_size];  // in the space of the instance being visited, those that see it
+
+  InstanceVisitor(const Tracer& the_tracer, const Ray* the_rays, Query* the_queries)
+      : tracer(the_tracer), rays(the_rays), queries(the_queries) {}
+
+  [[nodiscard]] float t_max(RayIndex ray) const { return static_cast<float>(queries[ray].t_max); }
+  void visit_leaf(std::uint32_t first, std::uint32_t count, std::span<const RayIndex> group) {
+    for (const PlacedInstance& instance : std::span(tracer.placed_).subspan(first, count)) visit(instance, group);
+  }
+  void visit(const PlacedInstance& instance, std::span<const RayIndex> group) {
+    RayIndex seeing[batch_size];
+    std::size_t count = 0;
+    for (const RayIndex ray : group) {
+      seeing[count] = ray;
+      count += (rays[ray].kinds & instance.visibility) != 0;
+    }
+    const std::span<const RayIndex> local_group(seeing, count);
+    if (instance.is_translation) {
+      const Vec3d translation = instance.world_to_object.column(3);
+      for (const RayIndex ray : local_group) local_rays[ray] = translate_ray(translation, rays[ray]);
+    } else {
+      for (const RayIndex ray : local_group) local_rays[ray] = transform_ray(instance.world_to_object, rays[ray]);
+    }
+    std::visit(
+        [&](const auto& geometry) { intersect_geometry(geometry, local_rays, local_group, instance.index, queries); },
+        tracer.trees_[instance.shape].geometry);
+  }
+};
 
 template <class Query>
-void Tracer::trace(const Ray& ray, Query& query) const {
-  const BoxRay box_ray = make_box_ray(Vec3d(ray.origin), Vec3d(ray.direction));
-  walk(instance_bvh_, WideBoxRay(box_ray, ray.t_min), query.box_t_max(), [&](std::uint32_t first, std::uint32_t count) {
-    for (const PlacedInstance& instance : std::span(placed_).subspan(first, count))
-      trace_instance(instance, ray, query);
-    return query.box_t_max();
-  });
-}
-
-void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
-  BASICRT_ASSERT(rays.size() == hits.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    hits[i] = {};
-    if (instance_bvh_.is_empty() || !is_traceable(rays[i])) continue;
-    NearestQuery query{.t = std::min(rays[i].t_max, std::numeric_limits<float>::max())};
-    trace(rays[i], query);
-    hits[i] = query.hit();
+void Tracer::trace(std::span<const Ray> rays, std::span<typename Query::Result> results) const {
+  BASICRT_ASSERT(rays.size() == results.size());
+  for (std::size_t first = 0; first < rays.size(); first += batch_size) {
+    const std::size_t count = std::min(batch_size, rays.size() - first);
+    trace_batch<Query>(rays.subspan(first, count), results.subspan(first, count));
   }
 }
+
+template <class Query>
+void Tracer::trace_batch(std::span<const Ray> rays, std::span<typename Query::Result> results) const {
+  WideBoxRay box_rays[batch_size];
+  Query queries[batch_size];
+  RayIndex group[batch_size];
+  std::size_t group_size = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Ray& ray = rays[i];
+    // Boxes that are never entered lie at infinity, which must be out of reach.
+    queries[i].start(std::min(ray.t_max, std::numeric_limits<float>::max()));
+    box_rays[i].set(make_box_ray(ray.origin, ray.direction), std::max(0.0f, ray.t_min));
+    group[group_size] = static_cast<RayIndex>(i);
+    group_size += is_traceable(ray);
+  }
+  if (group_size > 0 && !instance_bvh_.is_empty()) {
+    InstanceVisitor<Query> visitor(*this, rays.data(), queries);
+    GroupWalk(instance_bvh_, box_rays, visitor).visit(instance_bvh_.root, std::span<const RayIndex>(group, group_size));
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i) results[i] = queries[i].result();
+}
+
+void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const { trace<NearestQuery>(rays, hits); }
 
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> results) const {
-  BASICRT_ASSERT(rays.size() == results.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    results[i] = 0;
-    if (instance_bvh_.is_empty() || !is_traceable(rays[i])) continue;
-    AnyQuery query{.t = std::min(rays[i].t_max, std::numeric_limits<float>::max())};
-    trace(rays[i], query);
-    results[i] = query.is_found;
-  }
+  trace<AnyQuery>(rays, results);
 }
 
 Bounds3f Tracer::bounds() const { return instance_bvh_.bounds; }

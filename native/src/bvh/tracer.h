@@ -29,7 +29,7 @@ class Tracer {
   Tracer(Tracer&&) noexcept;
   Tracer& operator=(Tracer&&) noexcept;
 
-  // The nearest hit of each ray in [t_min, t_max]; of hits at exactly the same distance that of the lowest instance,
+  // The nearest hit of each ray in [t_min, t_max], of which no distance is negative; of hits at exactly the same distance that of the lowest instance,
   // then primitive. A ray with a NaN, or from or towards infinity, misses.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
   // Whether anything at all lies in [t_min, t_max]: 1 or 0 for each ray.
@@ -50,9 +50,11 @@ class Tracer {
   };
 
   template <class Query>
-  void trace(const Ray& ray, Query& query) const;
+  struct InstanceVisitor;
   template <class Query>
-  void trace_instance(const PlacedInstance& instance, const Ray& ray, Query& query) const;
+  void trace(std::span<const Ray> rays, std::span<typename Query::Result> results) const;
+  template <class Query>
+  void trace_batch(std::span<const Ray> rays, std::span<typename Query::Result> results) const;
 
   std::vector<ShapeTree> trees_;
   std::vector<PlacedInstance> placed_;

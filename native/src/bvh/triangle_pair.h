@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "bvh/simd.h"
 #include "geometry/precise_ray.h"
+#include "math/simd.h"
 #include "math/vec.h"
 
 namespace basicrt {
@@ -24,15 +24,15 @@ struct TrianglePair {
   }
 };
 
-// A ray with each number twice.
-struct PairRay {
-  Double2 origin[3], direction[3];
-  Double2 t_min;
+// What the tests of many rays share.
+struct PreparedPair {
+  Double2 p0[3], edge1[3], edge2[3];
 
-  explicit PairRay(const PreciseRay& ray) : t_min(Double2::all(ray.t_min)) {
+  explicit PreparedPair(const TrianglePair& pair) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      origin[axis] = Double2::all(ray.origin[axis]);
-      direction[axis] = Double2::all(ray.direction[axis]);
+      p0[axis] = Double2::from_floats(pair.p[0][axis]);
+      edge1[axis] = Double2::from_floats(pair.p[1][axis]) - p0[axis];
+      edge2[axis] = Double2::from_floats(pair.p[2][axis]) - p0[axis];
     }
   }
 };
@@ -42,13 +42,13 @@ struct PairHits {
   int bits;  // bit i: the ray hits triangle i within [t_min, t_max]
 };
 
-inline PairHits intersect_pair(const TrianglePair& pair, const PairRay& ray, double t_max) {
-  const auto corner = [&](int index, int axis) { return Double2::from_floats(pair.p[index][axis]); };
-  const Double2 p0x = corner(0, 0), p0y = corner(0, 1), p0z = corner(0, 2);
-  const Double2 ax = corner(1, 0) - p0x, ay = corner(1, 1) - p0y, az = corner(1, 2) - p0z;
-  const Double2 bx = corner(2, 0) - p0x, by = corner(2, 1) - p0y, bz = corner(2, 2) - p0z;
-  const Double2 sx = ray.origin[0] - p0x, sy = ray.origin[1] - p0y, sz = ray.origin[2] - p0z;
-  const Double2 dx = ray.direction[0], dy = ray.direction[1], dz = ray.direction[2];
+inline PairHits intersect_pair(const PreparedPair& pair, const PreciseRay& ray, double t_max) {
+  const auto& [ax, ay, az] = pair.edge1;
+  const auto& [bx, by, bz] = pair.edge2;
+  const Double2 dx = Double2::all(ray.direction.x), dy = Double2::all(ray.direction.y),
+                dz = Double2::all(ray.direction.z);
+  const Double2 sx = Double2::all(ray.origin.x) - pair.p0[0], sy = Double2::all(ray.origin.y) - pair.p0[1],
+                sz = Double2::all(ray.origin.z) - pair.p0[2];
   const Double2 px = dy * bz - dz * by, py = dz * bx - dx * bz, pz = dx * by - dy * bx;
   const Double2 qx = sy * az - sz * ay, qy = sz * ax - sx * az, qz = sx * ay - sy * ax;
   const Double2 one = Double2::all(1), zero = Double2::all(0);
@@ -57,8 +57,9 @@ inline PairHits intersect_pair(const TrianglePair& pair, const PairRay& ray, dou
   hits.t = (bx * qx + by * qy + bz * qz) * inverse_determinant;
   hits.u = (sx * px + sy * py + sz * pz) * inverse_determinant;
   hits.v = (dx * qx + dy * qy + dz * qz) * inverse_determinant;
-  hits.bits = less_equal_bits(zero, hits.u) & less_equal_bits(zero, hits.v) & less_equal_bits(hits.u + hits.v, one) &
-              less_equal_bits(ray.t_min, hits.t) & less_equal_bits(hits.t, Double2::all(t_max));
+  const Mask2 is_inside = (zero <= hits.u) & (zero <= hits.v) & (hits.u + hits.v <= one);
+  const Mask2 is_in_range = (Double2::all(ray.t_min) <= hits.t) & (hits.t <= Double2::all(t_max));
+  hits.bits = (is_inside & is_in_range).bits();
   return hits;
 }
 

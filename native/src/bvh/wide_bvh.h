@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A tree with four children to a node, whose boxes are tested together, and the walk through it.
+// A tree with four children to a node, whose boxes are tested together.
 #pragma once
 
-#include <algorithm>
-#include <bit>
 #include <cstdint>
-#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "base/assert.h"
 #include "bvh/bvh.h"
-#include "bvh/simd.h"
-#include "geometry/aabb.h"
 
 namespace basicrt {
 
 // A node where count is 0, else a leaf with that many items.
 struct WideReference {
-  std::uint32_t first = 0;  // index of the node, or of the leaf's first item
-  std::uint32_t count = 0;
+  std::uint32_t first;  // index of the node, or of the leaf's first item
+  std::uint32_t count;
 };
 
 // Two cache lines. Unused children have empty bounds, which no ray enters.
@@ -29,11 +25,11 @@ struct alignas(64) WideNode {
 };
 
 struct WideBvh {
-  // Of walks: each level leaves at most three siblings waiting. Builders stop far above.
+  // Builders stop far above: binned_sah at 64 levels and as many as it takes to halve what is left.
   static constexpr int max_depth = 128;
 
   std::vector<WideNode> nodes;
-  WideReference root;  // a leaf where there is no node
+  WideReference root{};  // a leaf where there is no node
   Bounds3f bounds;
 
   [[nodiscard]] bool is_empty() const { return nodes.empty() && root.count == 0; }
@@ -76,71 +72,5 @@ class WideBvhBuilder {
   const Bvh& source_;
   WideBvh result_;
 };
-
-// A ray with each number four times, its planes of entry and exit chosen by the signs of its direction.
-struct WideBoxRay {
-  Float4 entry_origin[3], exit_origin[3], inverse_direction[3];
-  Float4 t_min;
-  std::size_t entry_offset[3], exit_offset[3];  // of the rows in a WideNode
-
-  WideBoxRay(const BoxRay& ray, float ray_t_min) : t_min(Float4::all(ray_t_min)) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      entry_origin[axis] = Float4::all(ray.entry_origin[axis]);
-      exit_origin[axis] = Float4::all(ray.exit_origin[axis]);
-      inverse_direction[axis] = Float4::all(ray.inverse_direction[axis]);
-      entry_offset[axis] = axis + (ray.enters_at_upper[axis] ? 3 : 0);
-      exit_offset[axis] = axis + (ray.enters_at_upper[axis] ? 0 : 3);
-    }
-  }
-};
-
-// The bits of the children that the ray meets in [t_min, t_max], and where it enters them: intersect_box() for four.
-inline int intersect_children(const WideNode& node, const WideBoxRay& ray, float t_max, float (&entries)[4]) {
-  const float* rows = &node.lower[0][0];
-  const Float4 largest = Float4::all(std::numeric_limits<float>::max()), error = Float4::all(slab_error);
-  Float4 entry = Float4::all(-std::numeric_limits<float>::infinity());
-  Float4 exit = Float4::all(std::numeric_limits<float>::infinity());
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Float4 near_plane = Float4::load(rows + 4 * ray.entry_offset[axis]);
-    const Float4 far_plane = Float4::load(rows + 4 * ray.exit_offset[axis]);
-    entry = max((near_plane - ray.entry_origin[axis]) * ray.inverse_direction[axis], entry);
-    exit = min((far_plane - ray.exit_origin[axis]) * ray.inverse_direction[axis], exit);
-  }
-  entry = max(entry - min(abs(entry), largest) * error, ray.t_min);
-  exit = min(exit + min(abs(exit), largest) * error, Float4::all(t_max));
-  entry.store(entries);
-  return less_equal_bits(entry, exit);
-}
-
-// Calls visit_leaf(first, count) for each leaf whose box the ray meets in [t_min, t_max], about nearest first. It
-// returns the t_max from there on: nothing beyond is visited, and nothing at all after -infinity.
-template <class VisitLeaf>
-void walk(const WideBvh& bvh, const WideBoxRay& ray, float t_max, VisitLeaf&& visit_leaf) {
-  struct Pending {
-    WideReference reference;
-    float entry;
-  };
-  Pending stack[3 * WideBvh::max_depth + 1];
-  Pending* top = stack;
-  *top++ = {bvh.root, -std::numeric_limits<float>::infinity()};
-  while (top != stack) {
-    const Pending current = *--top;
-    if (current.entry > t_max) continue;
-    if (current.reference.count > 0) {
-      t_max = visit_leaf(current.reference.first, current.reference.count);
-      continue;
-    }
-    const WideNode& node = bvh.nodes[current.reference.first];
-    alignas(16) float entries[4];
-    Pending* const base = top;
-    for (auto bits = static_cast<unsigned>(intersect_children(node, ray, t_max, entries)); bits; bits &= bits - 1) {
-      const int child = std::countr_zero(bits);
-      // Insert so that the nearest ends up on top.
-      Pending* slot = top++;
-      for (; slot != base && slot[-1].entry < entries[child]; --slot) *slot = slot[-1];
-      *slot = {node.children[child], entries[child]};
-    }
-  }
-}
 
 }  // namespace basicrt
