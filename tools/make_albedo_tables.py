@@ -93,6 +93,15 @@ def iors(power: int) -> list[float]:
     return [(1 + x) / (1 - x) for x in coordinates]
 
 
+def averages(table: list[float]) -> list[float]:
+    """Over the cosine-weighted hemisphere, for each roughness of each index: 2 times the integral of E(mu) mu."""
+    # Over the nodes t with mu = t^2, by the trapezoidal rule. Weights that add up to one keep an albedo of one.
+    weights = np.linspace(0, 1, COSINES) ** 3
+    weights[-1] /= 2
+    by_cosine = np.array(table).reshape(-1, COSINES, ROUGHNESSES)
+    return list(np.einsum("c,icr->ir", weights / weights.sum(), by_cosine).ravel())
+
+
 def format_table(name: str, size: str, values: list[float]) -> str:
     levels = [str(round(min(max(v, 0.0), 1.0) * LEVELS)) for v in values]
     lines = [", ".join(levels[i : i + 16]) for i in range(0, len(levels), 16)]
@@ -105,11 +114,6 @@ def main() -> None:
     points: int = parser.parse_args().points
 
     reflection = [returned_shares(c, r, None, points)[0] for c, r in grid()]
-    # 2 times the integral of E(mu) mu over the nodes t, mu = t^2. Weights that add up to one keep an albedo of one.
-    t = np.linspace(0, 1, COSINES)
-    weights = t**3 / (t**3).sum()
-    weights[-1] /= 2  # the trapezoidal rule
-    average = list(weights / weights.sum() @ np.array(reflection).reshape(COSINES, ROUGHNESSES))
     # From a layer the reflection goes with the index's difference squared; of glass the losses set in at once.
     layer = [returned_shares(c, r, ior, points)[0] for ior in iors(1) for c, r in grid()]
     outside, inside = (
@@ -127,10 +131,12 @@ def main() -> None:
         '#include "bsdf/albedo_tables.h"\n\n'
         "namespace basicrt::albedo_tables {\n\n// clang-format off\n",
         format_table("reflection", "cosines * roughnesses", reflection),
-        format_table("reflection_average", "roughnesses", average),
+        format_table("reflection_average", "roughnesses", averages(reflection)),
         format_table("layer", "iors * cosines * roughnesses", layer),
         format_table("glass_from_outside", "iors * cosines * roughnesses", outside),
         format_table("glass_from_inside", "iors * cosines * roughnesses", inside),
+        format_table("glass_from_outside_average", "iors * roughnesses", averages(outside)),
+        format_table("glass_from_inside_average", "iors * roughnesses", averages(inside)),
         "// clang-format on\n\n}  // namespace basicrt::albedo_tables\n",
     ]
     OUTPUT.write_text("".join(parts))

@@ -12,8 +12,9 @@ namespace basicrt {
 // hemisphere; light that bounces more often meets it more often.
 [[nodiscard]] Color multiple_scattering(float roughness, float cos_theta, Color mean_fresnel);
 
-// The same for both parts of rough glass; `eta` as in Dielectric.
-[[nodiscard]] float glass_multiple_scattering(float roughness, float eta, float cos_theta);
+// The same for both parts of rough glass; `eta` as in Dielectric. Light that bounces more often is taken to meet `tint`,
+// the refracted light's, as Cycles' measured albedos have it.
+[[nodiscard]] Color glass_multiple_scattering(float roughness, float eta, float cos_theta, Color tint);
 
 // A rough dielectric as a layer on something else, seen from outside.
 struct DielectricLayer {

@@ -19,5 +19,7 @@ extern const std::uint16_t reflection_average[roughnesses];                   //
 extern const std::uint16_t layer[iors * cosines * roughnesses];               // reflected by a dielectric, from outside
 extern const std::uint16_t glass_from_outside[iors * cosines * roughnesses];  // reflected and refracted together
 extern const std::uint16_t glass_from_inside[iors * cosines * roughnesses];
+extern const std::uint16_t glass_from_outside_average[iors * roughnesses];
+extern const std::uint16_t glass_from_inside_average[iors * roughnesses];
 
 }  // namespace basicrt::albedo_tables

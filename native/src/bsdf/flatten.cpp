@@ -27,7 +27,17 @@ struct Target {
 
 Color square_root(Color c) { return {std::sqrt(c.x), std::sqrt(c.y), std::sqrt(c.z)}; }
 
-Microfacets make_ggx(float roughness) { return {roughness * roughness, roughness * roughness, MicrofacetModel::ggx}; }
+Microfacets make_microfacets(float roughness, FacetDistribution distribution) {
+  const float alpha = roughness * roughness;
+  const bool is_beckmann = distribution == FacetDistribution::beckmann;
+  return {alpha, alpha, is_beckmann ? MicrofacetModel::beckmann : MicrofacetModel::ggx};
+}
+
+// What `microfacets` are multiplied by so that light bouncing between them is kept, where it is to be.
+Color compensate(const Microfacets& microfacets, FacetDistribution distribution, auto multiple_scattering_function) {
+  const bool is_needed = distribution == FacetDistribution::multi_ggx && !microfacets.is_smooth();
+  return is_needed ? multiple_scattering_function() : Color(1.0f);
+}
 
 void flatten(const DiffuseShader& node, const Target& target, float weight) {
   if (target.is_back && !node.is_two_sided) return;
@@ -36,8 +46,10 @@ void flatten(const DiffuseShader& node, const Target& target, float weight) {
 
 void flatten(const GlossyShader& node, const Target& target, float weight) {
   const Color color = target.eval(node.color);
-  const Color compensation = multiple_scattering(node.roughness, target.cos_theta, color);
-  target.shading.bsdf.add(MicrofacetReflection<NoFresnel>{make_ggx(node.roughness), {}}, color * compensation * weight);
+  const Microfacets microfacets = make_microfacets(node.roughness, node.distribution);
+  const Color scale = compensate(microfacets, node.distribution,
+                                 [&] { return multiple_scattering(node.roughness, target.cos_theta, color); });
+  target.shading.bsdf.add(MicrofacetReflection<NoFresnel>{microfacets, {}}, color * scale * weight);
 }
 
 void flatten(const ConductorShader& node, const Target& target, float weight) {
@@ -50,18 +62,26 @@ void flatten(const ConductorShader& node, const Target& target, float weight) {
 }
 
 void flatten(const RefractionShader& node, const Target& target, float weight) {
-  target.shading.bsdf.add(
-      Dielectric{.eta = target.relative_ior(node.ior), .alpha = node.roughness * node.roughness, .has_fresnel = false},
-      target.eval(node.color) * weight);
+  const Microfacets microfacets = make_microfacets(node.roughness, node.distribution);
+  const Dielectric lobe{
+      .eta = target.relative_ior(node.ior),
+      .alpha = microfacets.alpha_x,
+      .model = microfacets.model,
+      .reflected = node.is_total_reflection_kept ? ReflectedLight::only_past_critical_angle : ReflectedLight::none};
+  target.shading.bsdf.add(lobe, target.eval(node.color) * weight);
 }
 
 void flatten(const GlassShader& node, const Target& target, float weight) {
+  const Microfacets microfacets = make_microfacets(node.roughness, node.distribution);
   const Dielectric lobe{.eta = target.relative_ior(node.ior),
-                        .alpha = node.roughness * node.roughness,
+                        .alpha = microfacets.alpha_x,
+                        .model = microfacets.model,
                         .reflect_tint = target.eval(node.reflect_color),
                         .transmit_tint = target.eval(node.transmit_color)};
-  target.shading.bsdf.add(lobe, Color(weight * glass_multiple_scattering(node.roughness, lobe.eta, target.cos_theta)),
-                          lobe.albedo(target.cos_theta));
+  const Color scale = compensate(microfacets, node.distribution, [&] {
+    return glass_multiple_scattering(node.roughness, lobe.eta, target.cos_theta, lobe.transmit_tint);
+  });
+  target.shading.bsdf.add(lobe, scale * weight, lobe.albedo(target.cos_theta));
 }
 
 void flatten(const TransparentShader& node, const Target& target, float weight) {
@@ -72,39 +92,48 @@ void flatten(const EmissionShader& node, const Target& target, float weight) {
   if (node.is_two_sided || !target.is_back) target.shading.emission += node.radiance * weight;
 }
 
+void add_metal(const PrincipledShader& node, const Target& target, Color base, float weight) {
+  const SchlickFresnel fresnel{base};
+  const Microfacets microfacets = make_microfacets(node.roughness, node.distribution);
+  const Color scale = compensate(microfacets, node.distribution,
+                                 [&] { return multiple_scattering(node.roughness, target.cos_theta, fresnel.mean()); });
+  target.shading.bsdf.add(MicrofacetReflection<SchlickFresnel>{microfacets, fresnel}, scale * weight,
+                          fresnel(target.cos_theta));
+}
+
+void add_reflection_over_diffuse(const PrincipledShader& node, const Target& target, Color base, float weight) {
+  const float f0 = reflectance_from_ior(node.ior) * 2 * node.specular_ior_level;
+  const float ior = node.specular_ior_level == 0.5f ? node.ior : ior_from_reflectance(f0);
+  const Microfacets microfacets = make_microfacets(node.roughness, node.distribution);
+  DielectricLayer layer = dielectric_layer(node.roughness, ior, target.cos_theta);
+  if (node.distribution != FacetDistribution::multi_ggx) layer = {1, layer.albedo / layer.scale};
+  if (microfacets.is_smooth()) layer = {1, fresnel_dielectric(target.cos_theta, ior).reflectance};
+  Bsdf& bsdf = target.shading.bsdf;
+  bsdf.add(MicrofacetReflection<InterfaceFresnel>{microfacets, {ior}}, Color(weight * layer.scale),
+           Color(layer.albedo / layer.scale));
+  bsdf.add(Lambert{}, base * (weight * (1 - layer.albedo)));
+}
+
 // From the top down, each layer by what the ones above leave: transparency, emission, metal, glass, and a dielectric
 // reflection over diffuse.
 void flatten(const PrincipledShader& node, const Target& target, float weight) {
-  Bsdf& bsdf = target.shading.bsdf;
-  bsdf.add(Transparent{}, Color(weight * (1 - node.alpha)));
+  target.shading.bsdf.add(Transparent{}, Color(weight * (1 - node.alpha)));
   weight *= node.alpha;
   target.shading.emission += node.emission * weight;
 
   const Color base = target.eval(node.base_color);
-  const Microfacets microfacets = make_ggx(node.roughness);
-  if (node.metallic > 0) {
-    const SchlickFresnel fresnel{base};
-    const Color compensation = multiple_scattering(node.roughness, target.cos_theta, fresnel.mean());
-    bsdf.add(MicrofacetReflection<SchlickFresnel>{microfacets, fresnel}, compensation * (weight * node.metallic),
-             fresnel(target.cos_theta));
-  }
+  if (node.metallic > 0) add_metal(node, target, base, weight * node.metallic);
   weight *= 1 - node.metallic;
-
-  const float f0 = reflectance_from_ior(node.ior) * 2 * node.specular_ior_level;
-  const float ior = node.specular_ior_level == 0.5f ? node.ior : ior_from_reflectance(f0);
   if (node.transmission > 0) {
-    const Dielectric lobe{
-        .eta = target.relative_ior(node.ior), .alpha = microfacets.alpha_x, .transmit_tint = square_root(base)};
-    bsdf.add(lobe,
-             Color(weight * node.transmission * glass_multiple_scattering(node.roughness, lobe.eta, target.cos_theta)),
-             lobe.albedo(target.cos_theta));
+    // The root, for light passes twice through most bodies. The level of the specular reflection leaves glass alone.
+    const GlassShader glass{.transmit_color = square_root(base),
+                            .ior = node.ior,
+                            .roughness = node.roughness,
+                            .distribution = node.distribution};
+    flatten(glass, target, weight * node.transmission);
   }
   weight *= 1 - node.transmission;
-
-  const DielectricLayer layer = dielectric_layer(node.roughness, ior, target.cos_theta);
-  bsdf.add(MicrofacetReflection<InterfaceFresnel>{microfacets, {ior}}, Color(weight * layer.scale),
-           Color(layer.albedo));
-  bsdf.add(Lambert{}, base * (weight * (1 - layer.albedo)));
+  if (weight > 0) add_reflection_over_diffuse(node, target, base, weight);
 }
 
 }  // namespace

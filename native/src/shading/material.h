@@ -2,6 +2,7 @@
 // What a surface is made of: a small graph of described shader nodes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -34,6 +35,14 @@ constexpr void for_each_number(const ColorInput& input, Visitor&& visit) {
 using NodeIndex = std::uint32_t;
 inline constexpr NodeIndex no_node = ~0u;
 
+// How a rough surface's facets are turned. Multiscatter GGX also keeps the light that bounces between them, as Blender's
+// nodes do by default; the others lose it.
+enum class FacetDistribution : std::uint8_t { multi_ggx, ggx, beckmann };
+template <>
+inline constexpr std::array enum_names<FacetDistribution> =
+    std::to_array<std::string_view>({"multi_ggx", "ggx", "beckmann"});
+inline constexpr std::string_view facet_distribution_doc = "how the microfacets are turned: multi_ggx, ggx or beckmann";
+
 struct DiffuseShader {
   ColorInput color;
   bool is_two_sided = false;
@@ -44,15 +53,17 @@ struct DiffuseShader {
   }
 };
 
-// Blender's Glossy node: GGX tinted by a colour, without Fresnel; a mirror where the roughness is 0.
+// Blender's Glossy node: microfacets tinted by a colour, without Fresnel; a mirror where the roughness is 0.
 struct GlossyShader {
   ColorInput color;
   float roughness = 0.5f;
+  FacetDistribution distribution = FacetDistribution::multi_ggx;
   static constexpr std::string_view kind = "glossy";
   static constexpr auto fields() {
     return std::tuple{
         field("color", &GlossyShader::color, "reflectance", within(0, 1)),
-        field("roughness", &GlossyShader::roughness, "the microfacets' alpha is its square", within(0, 1))};
+        field("roughness", &GlossyShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
+        field("distribution", &GlossyShader::distribution, facet_distribution_doc)};
   }
 };
 
@@ -74,32 +85,39 @@ struct ConductorShader {
   }
 };
 
-// All light is refracted (or, past the critical angle, mirrored): no Fresnel reflection.
+// All light is refracted, or, past the critical angle, mirrored: no Fresnel reflection. Facets lose what bounces between
+// them whatever the distribution.
 struct RefractionShader {
   ColorInput color{Color(1.0f)};
   float ior = 1.5f;
   float roughness = 0;
+  FacetDistribution distribution = FacetDistribution::ggx;
+  bool is_total_reflection_kept = true;
   static constexpr std::string_view kind = "refraction";
   static constexpr auto fields() {
     return std::tuple{
         field("color", &RefractionShader::color, "tint of the refracted light", within(0, 1)),
         field("eta", &RefractionShader::ior, "refractive index inside over outside", above(0)),
-        field("roughness", &RefractionShader::roughness, "the microfacets' alpha is its square", within(0, 1))};
+        field("roughness", &RefractionShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
+        field("distribution", &RefractionShader::distribution, facet_distribution_doc),
+        field("total_reflection", &RefractionShader::is_total_reflection_kept,
+              "mirror light past the critical angle, or lose it as Blender does")};
   }
 };
 
-// Fresnel reflection and refraction, by GGX microfacets where rough.
+// Fresnel reflection and refraction, by microfacets where rough.
 struct GlassShader {
   ColorInput reflect_color{Color(1.0f)}, transmit_color{Color(1.0f)};
   float ior = 1.5f;
   float roughness = 0;
+  FacetDistribution distribution = FacetDistribution::multi_ggx;
   static constexpr std::string_view kind = "glass";
   static constexpr auto fields() {
-    return std::tuple{
-        field("R", &GlassShader::reflect_color, "tint of the reflected light", within(0, 1)),
-        field("T", &GlassShader::transmit_color, "tint of the refracted light", within(0, 1)),
-        field("eta", &GlassShader::ior, "refractive index inside over outside", above(0)),
-        field("roughness", &GlassShader::roughness, "the microfacets' alpha is its square", within(0, 1))};
+    return std::tuple{field("R", &GlassShader::reflect_color, "tint of the reflected light", within(0, 1)),
+                      field("T", &GlassShader::transmit_color, "tint of the refracted light", within(0, 1)),
+                      field("eta", &GlassShader::ior, "refractive index inside over outside", above(0)),
+                      field("roughness", &GlassShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
+                      field("distribution", &GlassShader::distribution, facet_distribution_doc)};
   }
 };
 
@@ -127,6 +145,7 @@ struct PrincipledShader {
   float metallic = 0, roughness = 0.5f, ior = 1.5f, transmission = 0, specular_ior_level = 0.5f;
   Color emission{0.0f};
   float alpha = 1;
+  FacetDistribution distribution = FacetDistribution::multi_ggx;
   static constexpr std::string_view kind = "principled";
   static constexpr auto fields() {
     return std::tuple{
@@ -139,7 +158,8 @@ struct PrincipledShader {
         field("specular_ior_level", &PrincipledShader::specular_ior_level,
               "0.5 leaves the index's reflectance as it is", within(0, 1)),
         field("emission", &PrincipledShader::emission, "W / (m^2 sr), both sides", at_least(0)),
-        field("alpha", &PrincipledShader::alpha, "opacity", within(0, 1))};
+        field("alpha", &PrincipledShader::alpha, "opacity", within(0, 1)),
+        field("distribution", &PrincipledShader::distribution, facet_distribution_doc)};
   }
 };
 

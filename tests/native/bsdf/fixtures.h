@@ -12,24 +12,14 @@
 
 namespace basicrt::test {
 
-inline Material make_material(ShaderNode node) {
-  Material material;
-  material.surface = material.add(std::move(node));
-  return material;
+inline Material make_material(const ShaderNode& node) { return {.name = {}, .nodes = {node}, .surface = 0}; }
+
+inline Material make_mix(float factor, const ShaderNode& first, const ShaderNode& second) {
+  return {.name = {}, .nodes = {first, second, MixShader{factor, 0, 1}}, .surface = 2};
 }
 
-inline Material make_mix(float factor, ShaderNode first, ShaderNode second) {
-  Material material;
-  const NodeIndex a = material.add(std::move(first)), b = material.add(std::move(second));
-  material.surface = material.add(MixShader{factor, a, b});
-  return material;
-}
-
-inline Material make_sum(ShaderNode first, ShaderNode second) {
-  Material material;
-  const NodeIndex a = material.add(std::move(first)), b = material.add(std::move(second));
-  material.surface = material.add(AddShader{a, b});
-  return material;
+inline Material make_sum(const ShaderNode& first, const ShaderNode& second) {
+  return {.name = {}, .nodes = {first, second, AddShader{0, 1}}, .surface = 2};
 }
 
 // A point whose normals are given, and the same for both unless said otherwise.
@@ -90,10 +80,14 @@ inline std::vector<NamedMaterial> all_materials() {
       {"conductor, GGX, alphas .05 and .4", conductor(0.05f, 0.4f, true)},
       {"refraction, smooth", make_material(RefractionShader{Color(1.0f), 1.5f, 0})},
       {"refraction, roughness .4", make_material(RefractionShader{Color(1.0f), 1.5f, 0.4f})},
+      {"refraction, Beckmann, roughness .7, total reflection lost",
+       make_material(RefractionShader{Color(1.0f), 1.5f, 0.7f, FacetDistribution::beckmann, false})},
       {"glass, smooth", make_material(GlassShader{Color(1.0f), Color(1.0f), 1.5f, 0})},
       {"glass, roughness .3", make_material(GlassShader{Color(1.0f), Color(1.0f), 1.5f, 0.3f})},
       {"glass, roughness .8, index 2, tinted",
        make_material(GlassShader{Color{0.9f, 0.5f, 0.1f}, Color{0.2f, 0.6f, 0.8f}, 2, 0.8f})},
+      {"glass, Beckmann, roughness .5",
+       make_material(GlassShader{Color(1.0f), Color(1.0f), 1.5f, 0.5f, FacetDistribution::beckmann})},
       {"glass, roughness .5, index .8", make_material(GlassShader{Color(1.0f), Color(1.0f), 0.8f, 0.5f})},
       {"principled, dielectric", principled(0, 0.5f, 0, 1)},
       {"principled, all of it", principled(0.3f, 0.4f, 0.5f, 0.7f)},

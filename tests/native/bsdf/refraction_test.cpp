@@ -40,6 +40,15 @@ TEST(Refraction, falls_back_to_the_mirror_past_the_critical_angle) {
   EXPECT_EQ(refract(eta, wo).kind, ScatterKind::glossy);
 }
 
+TEST(Refraction, is_black_past_the_critical_angle_where_total_reflection_is_lost) {
+  const Material material = test::make_material(RefractionShader{Color(1.0f), 2, 0, FacetDistribution::ggx, false});
+  const auto sample = [&](Vec3f wo) {
+    return test::make_bsdf(material, test::make_point(), wo).sample(wo, 0.5f, {0.5f, 0.5f});
+  };
+  EXPECT_TRUE(sample(direction_at(180 - 29)));
+  EXPECT_FALSE(sample(direction_at(180 - 31)));
+}
+
 TEST(Refraction, keeps_unit_length_over_many_surfaces) {
   Vec3f direction = direction_at(40);
   for (int i = 0; i < 1000; ++i) direction = -refract(1.5f, direction, {0, 0.1f, 1}).wi;
