@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import bpy
 
+from typing import Any
+
 import basicrt
 
 from ..nodes import translate_surface
@@ -12,8 +14,9 @@ from ..report import Report
 
 
 def key(b_material: bpy.types.Material) -> int:
-    """What tells materials apart; the same for an original and its evaluated copy."""
-    return b_material.session_uid
+    """What tells materials apart. (Evaluated copies have no number of their own.)"""
+    original: Any = b_material.original
+    return int(original.session_uid)
 
 
 def convert(b_material: bpy.types.Material, report: Report) -> basicrt.Material:

@@ -42,6 +42,12 @@ def export(
     return scene
 
 
+def _uid(b_object: bpy.types.Object) -> int:
+    """What tells objects apart. (Evaluated copies have no number of their own.)"""
+    original: Any = b_object.original
+    return int(original.session_uid)
+
+
 class _InstanceExport:
     """Goes over the dependency graph once; what several instances share is converted once."""
 
@@ -53,7 +59,7 @@ class _InstanceExport:
         self._report = report
         self._shapes: dict[int, int | None] = {}
         self._materials: dict[int, int] = {}
-        # By the session_uids of an object and what instances it, and the mesh's key.
+        # By the numbers of an object and of what instances it, and by the mesh's key.
         self._slots: dict[tuple[int, int], list[int | None]] = {}
         self._visibility: dict[tuple[int, int], int] = {}
 
@@ -114,7 +120,7 @@ class _InstanceExport:
 
     def _materials_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> list[int | None]:
         """The material of each slot; Blender's default where a slot has none."""
-        key = (b_object.session_uid, mesh.key(b_mesh))
+        key = (_uid(b_object), mesh.key(b_mesh))
         if key not in self._slots:
             b_view_layer: Any = self._depsgraph.view_layer_eval
             override = b_view_layer.material_override
@@ -137,7 +143,7 @@ class _InstanceExport:
     ) -> int:
         """Which rays see an instance: those that may see both the object and what instances it."""
         b_parent = b_instance.parent if b_instance.is_instance else None
-        key = (b_object.session_uid, b_parent.session_uid if b_parent else 0)
+        key = (_uid(b_object), _uid(b_parent) if b_parent else 0)
         if key not in self._visibility:
             kinds = visibility.object_visibility(b_object)
             if b_parent is not None:

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on registers, shows its panels for its engine alone, and leaves nothing behind."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import addon
+import bpy
+import pytest
+from addon.report import Report, show_warnings
+from addon.ui import core_panels
+
+from support.blender import new_scene
+
+
+@pytest.fixture
+def unregistered() -> Iterator[None]:
+    """The add-on is away during a test."""
+    addon.unregister()
+    yield
+    addon.register()
+
+
+def all_panels() -> list[Any]:
+    return [p for p in bpy.types.Panel.__subclasses__() if hasattr(p, "COMPAT_ENGINES")]
+
+
+def test_engine_can_be_chosen() -> None:
+    scene = new_scene()
+    assert scene.render.engine == "BASICRT"
+
+
+def test_settings_have_defaults_descriptions_and_survive_a_file(tmp_path: Any) -> None:
+    scene = new_scene()
+    properties = type(scene.basicrt).bl_rna.properties
+    own = [p for p in properties if p.identifier not in {"rna_type", "name"}]
+    assert len(own) == 12
+    assert all(p.description for p in own)
+    scene.basicrt.samples = 77
+    path = str(tmp_path / "file.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    scene.basicrt.samples = 1
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert bpy.context.scene.basicrt.samples == 77
+
+
+def test_core_panels_are_shown() -> None:
+    names = {p.__name__ for p in all_panels() if "BASICRT" in p.COMPAT_ENGINES}
+    assert {
+        "RENDER_PT_color_management",
+        "DATA_PT_lens",
+        "EEVEE_MATERIAL_PT_surface",
+        "EEVEE_WORLD_PT_surface",
+        "DATA_PT_EEVEE_light",
+        "BASICRT_RENDER_PT_sampling",
+    } <= names
+    assert "RENDER_PT_eevee_sampling" not in names
+
+
+def test_own_panels_are_shown_for_no_other_engine() -> None:
+    own = [p for p in all_panels() if p.__name__.startswith("BASICRT_")]
+    assert len(own) == 7
+    assert all({"BASICRT"} == p.COMPAT_ENGINES for p in own)
+
+
+def test_panels_do_not_leak_after_unregister(unregistered: None) -> None:
+    registered = [p for p in all_panels() if not p.__module__.startswith("addon.")]
+    assert len(registered) > 100
+    assert not [p.__name__ for p in registered if "BASICRT" in p.COMPAT_ENGINES]
+
+
+def test_nothing_else_is_left_after_unregister(unregistered: None) -> None:
+    assert not hasattr(bpy.types.Scene, "basicrt")
+    assert not hasattr(bpy.types, "BASICRT_OT_export_scene")
+    assert not hasattr(bpy.types, "BASICRT_RENDER_PT_sampling")
+    with pytest.raises(TypeError):
+        bpy.context.scene.render.engine = "BASICRT"
+    menu = bpy.types.TOPBAR_MT_file_export
+    assert not [f for f in menu._dyn_ui_initialize() if "addon." in f.__module__]
+
+
+def test_registering_again_works(unregistered: None) -> None:
+    addon.register()
+    try:
+        assert new_scene().basicrt.samples == 16
+    finally:
+        addon.unregister()
+
+
+def test_core_panels_are_found_once() -> None:
+    panels = list(core_panels.core_panels())
+    assert len(panels) == len(set(panels))
+
+
+def test_warnings_panel_shows_only_when_there_are_some() -> None:
+    new_scene()
+    panel: Any = bpy.types.BASICRT_RENDER_PT_warnings
+    context = type("Context", (), {"engine": "BASICRT"})
+    show_warnings(Report())
+    assert not panel.poll(context)
+    report = Report()
+    report.warn("item", "message")
+    show_warnings(report)
+    assert panel.poll(context)
+    show_warnings(Report())
