@@ -22,7 +22,10 @@ class Report:
 
     def warn(self, item: str, message: str) -> None:
         """`item` names the culprit (`material "Glass"`), `message` what is done about it."""
-        text = f"{item}: {message}"
+        self.add(f"{item}: {message}")
+
+    def add(self, text: str) -> None:
+        """A warning that names its item itself."""
         if text not in self._warnings:
             self._warnings[text] = None
             log.warning("%s", text)

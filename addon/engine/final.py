@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import time
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -40,6 +41,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         """Blender calls it twice from 4.5 on."""
         super().__init__(*args, **kwargs)
         self.scene: basicrt.Scene | None = None
+        self.warnings = Report()  # of all view layers
         self.failure: str | None = None
 
     def update(self, data: Any = None, depsgraph: Any = None) -> None:
@@ -100,22 +102,14 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         from ..sync import scene_sync
 
         self.update_stats("", "Exporting")
-        report = Report()
         b_camera = self.camera_override or depsgraph.scene.camera
         evaluated = b_camera.evaluated_get(depsgraph) if b_camera else None
-        self.scene = scene_sync.export(depsgraph, evaluated, report)
-        show_warnings(report)
-        if report.warnings:
-            self.report({"WARNING"}, summary(report))
+        self.scene = scene_sync.export(depsgraph, evaluated, self.warnings)
+        show_warnings(self.warnings)
 
     def _trace(self, scene: basicrt.Scene, depsgraph: Any) -> None:
         """Pull tiles until there are no more or the user cancels."""
-        import basicrt
-
-        b_scene = depsgraph.scene
-        self.update_stats("", "Building trees")
-        tile_size = settings_of(b_scene).tile_size
-        with basicrt.Session(scene, threads=b_scene.render.threads, tile_size=tile_size) as session:
+        with self._start_session(scene, depsgraph.scene) as session:
             writer = ResultWriter(self, depsgraph.view_layer.name, session.rect)
             next_status = 0.0
             for tile in session.tiles(poll_seconds=POLL_SECONDS):
@@ -130,6 +124,25 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             if not session.is_stopped:
                 self._show_status(session.progress)
         writer.finish()
+
+    def _start_session(self, scene: basicrt.Scene, b_scene: Any) -> basicrt.Session:
+        """Build the trees and start the threads; then tell of all that is not as in Blender."""
+        import basicrt
+
+        self.update_stats("", "Building trees")
+        with warnings.catch_warnings(record=True) as caught_warnings:
+            warnings.simplefilter("always", basicrt.SceneWarning)
+            session = basicrt.Session(
+                scene,
+                threads=b_scene.render.threads,
+                tile_size=settings_of(b_scene).tile_size,
+            )
+        for warning in caught_warnings:
+            self.warnings.add(str(warning.message))
+        show_warnings(self.warnings)
+        if self.warnings.warnings:
+            self.report({"WARNING"}, summary(self.warnings))
+        return session
 
     def _show_status(self, progress: basicrt.Progress) -> None:
         """Progress bar, status line and memory."""

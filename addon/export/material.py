@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-import bpy
-
 from typing import Any
+
+import bpy
 
 import basicrt
 

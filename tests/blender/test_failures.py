@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A render that can't be made says why in one message, raises, and leaves no file."""
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+import pytest
+from addon.engine import BasicRTRenderEngine
+from addon.report import shown_warnings
+
+import basicrt
+from support.blender import (
+    add_camera,
+    add_lamp,
+    add_mesh,
+    add_plane,
+    new_material,
+    new_scene,
+    render,
+    set_exr,
+    set_world,
+)
+
+
+@pytest.fixture
+def picture(tmp_path: Path) -> Iterator[Path]:
+    """Where a render would be written; nothing may be there afterwards."""
+    scene = new_scene(8, 8)
+    set_exr(scene)
+    path = tmp_path / "picture.exr"
+    scene.render.filepath = str(path)
+    yield path
+    assert not path.exists()
+
+
+def fail_to_render() -> str:
+    with pytest.raises(RuntimeError) as caught:
+        bpy.ops.render.render(write_still=True)
+    return str(caught.value)
+
+
+def test_no_camera(picture: Path) -> None:
+    add_plane()
+    assert "no camera" in fail_to_render().lower()
+
+
+def test_vertex_that_is_not_a_number(picture: Path) -> None:
+    add_camera()
+    made = add_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], name="Broken")
+    made.data.attributes["position"].data[1].vector = (0, float("nan"), 0)
+    assert 'object "Broken": positions[1, 1]: must be finite' in fail_to_render()
+
+
+def test_native_module_missing(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    add_camera()
+    monkeypatch.setitem(sys.modules, "basicrt", None)
+    assert "the native module `basicrt` cannot be imported" in fail_to_render()
+
+
+def test_native_module_of_another_version(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    add_camera()
+    monkeypatch.setattr(basicrt, "native_version", lambda: "0.0.1")
+    assert "`basicrt` is version 0.0.1, but the add-on is" in fail_to_render()
+
+
+def raise_from(error: BaseException) -> Any:
+    def fail(*_arguments: Any, **_keywords: Any) -> None:
+        raise error
+
+    return fail
+
+
+def test_out_of_memory(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    add_camera()
+    monkeypatch.setattr(basicrt, "Session", raise_from(MemoryError()))
+    assert "BasicRT: out of memory" in fail_to_render()
+
+
+def test_interrupt(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    add_camera()
+    monkeypatch.setattr(basicrt, "Session", raise_from(KeyboardInterrupt()))
+    assert "BasicRT: interrupted" in fail_to_render()
+
+
+def test_our_own_mistakes(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    add_camera()
+    monkeypatch.setattr(basicrt, "Session", raise_from(AssertionError("never")))
+    assert "BasicRT: never" in fail_to_render()
+
+
+def test_failure_is_forgotten_by_the_next_render(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    new_scene(8, 8)
+    add_camera()
+    set_world((1, 1, 1))
+    with monkeypatch.context() as patch:
+        patch.setattr(basicrt, "native_version", lambda: "0.0.1")
+        fail_to_render()
+    assert render(tmp_path).min() == 1
+
+
+def test_cancelling_stops_early(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = bpy.context.scene
+    scene.render.resolution_x = scene.render.resolution_y = 512
+    scene.basicrt.samples = 1 << 20  # hours
+    add_plane(material=new_material("ShaderNodeBsdfDiffuse"))
+    add_lamp("POINT", energy=1)
+    add_camera()
+    polls = iter(range(10**9))
+    monkeypatch.setattr(BasicRTRenderEngine, "test_break", lambda _self: next(polls) >= 3)
+    bpy.ops.render.render()
+    assert next(polls) <= 5, "went on after it was cancelled"
+
+
+def test_what_is_not_supported_is_shown_after_the_render(tmp_path: Path) -> None:
+    new_scene(8, 8)
+    add_camera()
+    add_plane(material=new_material("ShaderNodeHoldout", "Hole"))
+    render(tmp_path)
+    assert shown_warnings() == (
+        'material "Hole": node "Holdout": not supported: drawn black and opaque',
+    )
+    bpy.data.materials.remove(bpy.data.materials["Hole"])
+    render(tmp_path)
+    assert shown_warnings() == ()
+
+
+def test_faces_without_area_are_left_out_with_a_warning(tmp_path: Path) -> None:
+    new_scene(8, 8)
+    add_camera(ortho_scale=0.5)
+    corners = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (2, 2, 0), (2, 2, 0), (2, 2, 0)]
+    shines = new_material("ShaderNodeEmission", Color=(1, 1, 1), Strength=1.0)
+    add_mesh(corners, [(0, 1, 2, 3), (4, 5, 6)], shines)
+    assert render(tmp_path)[4, 4, 0] == 1
+    (warning,) = shown_warnings()
+    assert "1 triangle" in warning
+
+
+def test_empty_scene_is_a_picture_of_the_world(tmp_path: Path) -> None:
+    new_scene(8, 8)
+    add_camera()
+    assert (render(tmp_path)[..., :3] == 0).all()
