@@ -18,6 +18,8 @@ from .result import ResultWriter, complete_without_pixels
 if TYPE_CHECKING:
     import basicrt
 
+    from ..sync.scene_sync import Export
+
 # How often Blender is told of progress, and asked whether to stop.
 STATUS_SECONDS = 0.5
 POLL_SECONDS = 0.05
@@ -40,27 +42,27 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         """Blender calls it twice from 4.5 on."""
         super().__init__(*args, **kwargs)
-        self.scene: basicrt.Scene | None = None
+        self.exported: Export | None = None
         self.warnings = Report()  # of all view layers
         self.failure: str | None = None
 
     def update(self, data: Any = None, depsgraph: Any = None) -> None:
         """Blender's callback, with scene data locked: export everything a render needs."""
-        self.scene, self.failure = None, None
+        self.exported, self.failure = None, None
         with caught(self._remember_failure):
             self._export(depsgraph)
 
     def render(self, depsgraph: Any) -> None:  # type: ignore[override]
         """Blender's callback: render one view layer."""
-        scene, self.scene = self.scene, None
+        exported, self.exported = self.exported, None
         with caught(self._fail):
-            if scene is None:
+            if exported is None:
                 self._fail(self.failure or "BasicRT: the scene was not exported")
             elif BasicRTRenderEngine.export_path is not None:
-                scene.save(str(BasicRTRenderEngine.export_path))
+                exported.scene.save(str(BasicRTRenderEngine.export_path))
                 complete_without_pixels(self)
             else:
-                self._trace(scene, depsgraph)
+                self._trace(exported, depsgraph)
 
     def update_render_passes(
         self, scene: bpy.types.Scene | None = None, renderlayer: bpy.types.ViewLayer | None = None
@@ -104,18 +106,18 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.update_stats("", "Exporting")
         b_camera = self.camera_override or depsgraph.scene.camera
         evaluated = b_camera.evaluated_get(depsgraph) if b_camera else None
-        self.scene = scene_sync.export(depsgraph, evaluated, self.warnings)
+        self.exported = scene_sync.export(depsgraph, evaluated, self.warnings)
         show_warnings(self.warnings)
 
-    def _trace(self, scene: basicrt.Scene, depsgraph: Any) -> None:
+    def _trace(self, exported: Export, depsgraph: Any) -> None:
         """Pull tiles until there are no more or the user cancels."""
-        with self._start_session(scene, depsgraph.scene) as session:
+        with self._start_session(exported, depsgraph.scene) as session:
             writer = ResultWriter(self, depsgraph.view_layer.name, session.rect)
             next_status = 0.0
             for tile in session.tiles(poll_seconds=POLL_SECONDS):
                 if tile is not None:
                     writer.write(tile)
-                if self.test_break():
+                if self._is_cancelled():
                     session.stop()
                     break
                 if time.monotonic() >= next_status:
@@ -125,7 +127,11 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
                 self._show_status(session.progress)
         writer.finish()
 
-    def _start_session(self, scene: basicrt.Scene, b_scene: Any) -> basicrt.Session:
+    def _is_cancelled(self) -> bool:
+        """Whether the user pressed Escape, or the process was interrupted."""
+        return self.test_break()
+
+    def _start_session(self, exported: Export, b_scene: Any) -> basicrt.Session:
         """Build the trees and start the threads; then tell of all that is not as in Blender."""
         import basicrt
 
@@ -133,12 +139,12 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         with warnings.catch_warnings(record=True) as caught_warnings:
             warnings.simplefilter("always", basicrt.SceneWarning)
             session = basicrt.Session(
-                scene,
+                exported.scene,
                 threads=b_scene.render.threads,
                 tile_size=settings_of(b_scene).tile_size,
             )
         for warning in caught_warnings:
-            self.warnings.add(str(warning.message))
+            self.warnings.add(exported.in_users_words(str(warning.message)))
         show_warnings(self.warnings)
         if self.warnings.warnings:
             self.report({"WARNING"}, summary(self.warnings))

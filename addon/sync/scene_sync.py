@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import dataclass, field
 from typing import Any
 
 import bpy
@@ -23,9 +25,21 @@ _UNSUPPORTED = {
 }
 
 
+@dataclass
+class Export:
+    """A scene, and what its user calls the things in it."""
+
+    scene: basicrt.Scene = field(default_factory=basicrt.Scene)
+    shape_names: list[str] = field(default_factory=list)
+
+    def in_users_words(self, message: str) -> str:
+        """A message of the core with objects' names instead of `shapes[3]`."""
+        return re.sub(r"\bshapes\[(\d+)\]", lambda m: self.shape_names[int(m[1])], message)
+
+
 def export(
     depsgraph: bpy.types.Depsgraph, b_camera: bpy.types.Object | None, report: Report
-) -> basicrt.Scene:
+) -> Export:
     """The scene that a view layer shows to an (evaluated) camera.
 
     Raises ExportError, naming the culprit, where nothing can be rendered.
@@ -34,12 +48,13 @@ def export(
     b_view_layer: Any = depsgraph.view_layer_eval
     if b_camera is None:
         raise ExportError(f'scene "{b_scene.name}" has no camera: choose one in Scene > Camera')
-    scene = basicrt.Scene()
+    exported = Export()
+    scene = exported.scene
     settings.convert(b_scene, b_view_layer, scene.settings, report)
     scene.camera = camera.convert(b_camera, b_scene.render, report)
     scene.environment = world.convert(compat.view_layer_world(b_scene, b_view_layer), report)
-    _InstanceExport(scene, depsgraph, report).run()
-    return scene
+    _InstanceExport(exported, depsgraph, report).run()
+    return exported
 
 
 def _uid(b_object: bpy.types.Object) -> int:
@@ -51,10 +66,9 @@ def _uid(b_object: bpy.types.Object) -> int:
 class _InstanceExport:
     """Goes over the dependency graph once; what several instances share is converted once."""
 
-    def __init__(
-        self, scene: basicrt.Scene, depsgraph: bpy.types.Depsgraph, report: Report
-    ) -> None:
-        self._scene = scene
+    def __init__(self, exported: Export, depsgraph: bpy.types.Depsgraph, report: Report) -> None:
+        self._scene = exported.scene
+        self._shape_names = exported.shape_names
         self._depsgraph = depsgraph
         self._report = report
         self._shapes: dict[int, int | None] = {}
@@ -109,14 +123,22 @@ class _InstanceExport:
         """The index of a mesh's shape, None where it has no faces."""
         key = mesh.key(b_mesh)
         if key not in self._shapes:
-            try:
-                shape = mesh.convert_object(b_object, b_mesh)
-            except basicrt.SceneError as error:
-                raise ExportError(f'object "{b_object.name}": {error}') from error
-            self._shapes[key] = None if shape is None else self._scene.shapes.append(shape)
+            self._shapes[key] = self._new_shape(b_object, b_mesh)
             if b_object.is_holdout or b_object.is_shadow_catcher:
                 self._warn(b_object, "holdouts and shadow catchers are not supported: drawn as is")
         return self._shapes[key]
+
+    def _new_shape(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> int | None:
+        """The index of a mesh's new shape, called by the name of its first object."""
+        name = f'object "{b_object.name}"'
+        try:
+            shape = mesh.convert_object(b_object, b_mesh)
+        except basicrt.SceneError as error:
+            raise ExportError(f"{name}: {error}") from error
+        if shape is None:
+            return None
+        self._shape_names.append(name)
+        return self._scene.shapes.append(shape)
 
     def _materials_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> list[int | None]:
         """The material of each slot; Blender's default where a slot has none."""

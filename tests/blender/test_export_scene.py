@@ -42,7 +42,7 @@ def test_export_that_fails_says_why_and_leaves_no_file(tmp_path: Path) -> None:
     scene = new_scene(8, 8)
     scene.camera = None
     path = tmp_path / "scene.json"
-    with pytest.raises(RuntimeError, match="(?i)no camera"):
+    with pytest.raises(RuntimeError, match=r"(?i)no camera"):
         bpy.ops.basicrt.export_scene(filepath=str(path))
     assert not path.exists()
 

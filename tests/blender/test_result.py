@@ -118,7 +118,7 @@ def test_opaque_film_shows_the_world(tmp_path: Path) -> None:
     [
         (0.131, 0.777, 0.21, 0.9),
         (0.0, 0.5, 0.0, 0.5),
-        (0.333, 0.334, 0.0, 1.0),
+        (0.2, 0.21, 0.1, 0.13),
         (0.5, 1.0, 0.7, 1.0),
     ],
 )
@@ -133,8 +133,6 @@ def test_border_has_the_whole_pictures_pixels(
     scene.render.border_min_y, scene.render.border_max_y = rectangle[2:]
     left, right = int(scene.render.border_min_x * 97), int(scene.render.border_max_x * 97)
     low, high = int(scene.render.border_min_y * 65), int(scene.render.border_max_y * 65)
-    if right <= left or high <= low:
-        pytest.skip("an empty border")
     part = whole[low:high, left:right]
 
     scene.render.use_crop_to_border = True

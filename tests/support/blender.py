@@ -122,15 +122,15 @@ def export(report: Report | None = None) -> basicrt.Scene:
     depsgraph = bpy.context.evaluated_depsgraph_get()
     camera = bpy.context.scene.camera
     evaluated = camera.evaluated_get(depsgraph) if camera else None
-    return scene_sync.export(depsgraph, evaluated, report or Report())
+    return scene_sync.export(depsgraph, evaluated, report or Report()).scene
 
 
 def export_in_render(monkeypatch: pytest.MonkeyPatch) -> basicrt.Scene:
     """The scene as a real render exports it: with the render's visibility and modifiers."""
     exported = []
 
-    def keep(engine: Any, scene: basicrt.Scene, _depsgraph: Any) -> None:
-        exported.append(scene)
+    def keep(engine: Any, export: scene_sync.Export, _depsgraph: Any) -> None:
+        exported.append(export.scene)
         complete_without_pixels(engine)
 
     with monkeypatch.context() as patch:
