@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/validate_fields.h"
 
 namespace basicrt::bindings {
 namespace py = pybind11;
@@ -77,7 +78,7 @@ py::array_t<float> float_array(py::handle value, const std::string& item, const 
   const py::array_t<float, py::array::c_style | py::array::forcecast> floats(array);
   for (py::ssize_t i = 0; i < floats.size(); ++i)
     if (!std::isfinite(floats.data()[i]))
-      throw SceneError(item + position_text(floats, i), "must be finite, is " + std::to_string(floats.data()[i]));
+      throw SceneError(item + position_text(floats, i), "must be a finite number, is " + number_text(floats.data()[i]));
   return floats;
 }
 

@@ -45,14 +45,15 @@ class BoundSession {
 
   // Stops and joins the threads, with the GIL released.
   void close() {
+    if (!session_) return;
+    was_stopped_ = is_stopped() || !session_->is_done();
     stop();
     while (waiting_ > 0) {
       const py::gil_scoped_release release;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    if (!session_) return;
+    if (!session_) return;  // another thread closed it meanwhile
     last_progress_ = session_->progress();
-    was_stopped_ = session_->is_stopped();
     std::unique_ptr<Session> session = std::move(session_);
     const py::gil_scoped_release release;
     session.reset();

@@ -730,6 +730,7 @@ class PointLight:
     intensity: W / sr; at least 0
     radius: metres; at least 0
     soft: a disc that faces the lit point instead of a sphere
+    camera_visible: whether camera rays see the lamp; what it lights stays the same
     """
     def __init__(
         self,
@@ -737,8 +738,16 @@ class PointLight:
         intensity: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
         radius: float = 0.0,
         soft: bool = False,
+        camera_visible: bool = True,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def camera_visible(self) -> bool:
+        """
+        whether camera rays see the lamp; what it lights stays the same
+        """
+    @camera_visible.setter
+    def camera_visible(self, value: bool) -> None: ...
     @property
     def intensity(self) -> tuple[float, float, float]:
         """
@@ -780,6 +789,7 @@ class SpotLight:
     soft: a disc that faces the lit point instead of a sphere
     angle: full angle of the cone, radians; above 0
     blend: share of the cone in which it fades; in [0, 1]
+    camera_visible: whether camera rays see the lamp; what it lights stays the same
     """
     def __init__(
         self,
@@ -789,6 +799,7 @@ class SpotLight:
         soft: bool = False,
         angle: float = 0.785398,
         blend: float = 0.15,
+        camera_visible: bool = True,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -805,6 +816,13 @@ class SpotLight:
         """
     @blend.setter
     def blend(self, value: float) -> None: ...
+    @property
+    def camera_visible(self) -> bool:
+        """
+        whether camera rays see the lamp; what it lights stays the same
+        """
+    @camera_visible.setter
+    def camera_visible(self, value: bool) -> None: ...
     @property
     def intensity(self) -> tuple[float, float, float]:
         """
@@ -843,12 +861,14 @@ class SunLight:
     direction: in which the light travels, world space
     irradiance: W / m^2 on a surface that faces it; at least 0
     angle: full angle of the disc, radians; in [0, 3.141593]
+    camera_visible: whether camera rays see the lamp; what it lights stays the same
     """
     def __init__(
         self,
         direction: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, -1.0),
         irradiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
         angle: float = 0.0,
+        camera_visible: bool = True,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -858,6 +878,13 @@ class SunLight:
         """
     @angle.setter
     def angle(self, value: float) -> None: ...
+    @property
+    def camera_visible(self) -> bool:
+        """
+        whether camera rays see the lamp; what it lights stays the same
+        """
+    @camera_visible.setter
+    def camera_visible(self, value: bool) -> None: ...
     @property
     def direction(self) -> tuple[float, float, float]:
         """
@@ -885,6 +912,7 @@ class AreaLight:
     radiance: W / (m^2 sr) with full spread; at least 0
     ellipse: an ellipse instead of a rectangle
     spread: full angle, radians; in [0, 3.141593]
+    camera_visible: whether camera rays see the lamp; what it lights stays the same
     """
     def __init__(
         self,
@@ -892,8 +920,16 @@ class AreaLight:
         radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
         ellipse: bool = False,
         spread: float = 3.141593,
+        camera_visible: bool = True,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def camera_visible(self) -> bool:
+        """
+        whether camera rays see the lamp; what it lights stays the same
+        """
+    @camera_visible.setter
+    def camera_visible(self, value: bool) -> None: ...
     @property
     def ellipse(self) -> bool:
         """

@@ -61,6 +61,9 @@ def read_exr(path: str | os.PathLike[str]) -> dict[str, Picture]:
     try:
         file = OpenEXR.File(str(path), separate_channels=True)
         layers: dict[str, dict[str, Picture]] = {}
+        # OpenEXR leaves out the parts that it can't decode, and says so on standard error only.
+        if len(file.parts) < max(len(OpenEXR.File(str(path), header_only=True).parts), 1):
+            raise ValueError("it is damaged")
         for part in range(len(file.parts)):
             for full_name, channel in file.channels(part).items():
                 layer, letter = _split_channel_name(full_name)
