@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -65,12 +66,12 @@ std::vector<NamedLamp> deltas() {
           {"sun", SunLight{}}};
 }
 
-std::vector<Vec3f> positions() { return {{0.7f, -0.4f, 0.1f}, {-1, 2, 1.2f}}; }
+constexpr std::array positions = {Vec3f{0, 0, 0}, Vec3f{0.7f, -0.4f, 0.1f}, Vec3f{-1, 2, 1.2f}};
 
 TEST(Lights, samples_follow_their_density) {
-  const double threshold = sidak_threshold(int(lamps_with_size().size() * positions().size()));
+  const double threshold = sidak_threshold(int(lamps_with_size().size() * positions.size()));
   for (const NamedLamp& lamp : lamps_with_size())
-    for (const Vec3f position : positions()) {
+    for (const Vec3f position : positions) {
       const auto sample = [&](Rng& rng) -> std::optional<Vec3f> {
         const auto s = sample_light(lamp.light, position, next_unit_vec2(rng));
         if (!s) return std::nullopt;
@@ -85,7 +86,7 @@ TEST(Lights, samples_follow_their_density) {
 TEST(Lights, a_ray_sees_what_a_sample_promised) {
   Rng rng(5);
   for (const NamedLamp& lamp : lamps_with_size())
-    for (const Vec3f position : positions()) {
+    for (const Vec3f position : positions) {
       int samples = 0, hits = 0;
       for (int i = 0; i < 1000; ++i) {
         const auto sample = sample_light(lamp.light, position, next_unit_vec2(rng));
@@ -134,7 +135,7 @@ TEST(Lights, hidden_from_the_camera_are_met_by_other_rays_and_light_alike) {
     std::visit([](auto& light) { light.is_camera_visible = false; }, hidden);
     int samples = 0, hits = 0;
     for (int i = 0; i < 300; ++i) {
-      const Vec3f position = positions()[i % 3];
+      const Vec3f position = positions[i % positions.size()];
       const auto sample = sample_light(lamp.light, position, next_unit_vec2(rng));
       if (!sample) continue;
       ++samples;

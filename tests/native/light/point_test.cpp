@@ -46,6 +46,30 @@ TEST(PointLight, from_within_the_sphere_every_direction_has_its_radiance) {
   EXPECT_NEAR(sampled_irradiance(lamp, {0.3f, 1, 1}, {1, 0, 0}), double(pi) * radiance, 1e-3);
 }
 
+TEST(PointLight, samples_lie_on_the_sphere_or_on_the_disc_that_faces_the_position) {
+  Rng rng(61);
+  const Vec3f center{0.5f, 0, 2};
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3f outside = center + random_direction(rng) * (1 + 3 * next_unit_float(rng));
+    const Vec2f u = next_unit_vec2(rng);
+    const auto on_sphere = sample_light(PointLight{.position = center, .radius = 0.9f}, outside, u);
+    const auto on_disc = sample_light(PointLight{.position = center, .radius = 0.9f, .is_soft = true}, outside, u);
+    ASSERT_TRUE(on_sphere && on_disc);
+    // The near side, where the normal and the way to the lamp are opposed.
+    const Vec3f normal = (outside + on_sphere->wi * on_sphere->distance - center) / 0.9f;
+    EXPECT_NEAR(length(normal), 1, 1e-4) << "seed 61";
+    EXPECT_LT(dot(normal, on_sphere->wi), 1e-2) << "seed 61";
+    const Vec3f offset = outside + on_disc->wi * on_disc->distance - center;
+    EXPECT_LT(length(offset), 0.9f * 1.0001f) << "seed 61";
+    EXPECT_NEAR(dot(offset, normalize(outside - center)), 0, 1e-4) << "seed 61";
+    // From inside, the far side.
+    const Vec3f inside = center + random_direction(rng) * (0.8f * next_unit_float(rng));
+    const auto around = sample_light(PointLight{.position = center, .radius = 0.9f}, inside, u);
+    ASSERT_TRUE(around);
+    EXPECT_NEAR(length(inside + around->wi * around->distance - center), 0.9, 1e-5) << "seed 61";
+  }
+}
+
 TEST(PointLight, emits_its_power) {
   for (const float radius : {0.0f, 0.5f})
     for (const bool is_soft : {false, true}) {
