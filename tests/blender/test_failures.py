@@ -51,7 +51,7 @@ def test_vertex_that_is_not_a_number(picture: Path) -> None:
     add_camera()
     made = add_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], name="Broken")
     made.data.attributes["position"].data[1].vector = (0, float("nan"), 0)
-    assert 'object "Broken": positions[1, 1]: must be finite' in fail_to_render()
+    assert 'object "Broken": positions[1, 1]: must be a finite number' in fail_to_render()
 
 
 def test_native_module_missing(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -269,6 +269,7 @@ class GlossyShader:
 
     color: reflectance; in [0, 1]
     roughness: the microfacets' alpha is its square; in [0, 1]
+    distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
     """
     def __init__(
         self,
@@ -278,6 +279,7 @@ class GlossyShader:
             0.8,
         ),
         roughness: float = 0.5,
+        distribution: str = "multi_ggx",
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -289,6 +291,13 @@ class GlossyShader:
     def color(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
     ) -> None: ...
+    @property
+    def distribution(self) -> str:
+        """
+        how the microfacets are turned: multi_ggx, ggx or beckmann
+        """
+    @distribution.setter
+    def distribution(self, value: str) -> None: ...
     @property
     def roughness(self) -> float:
         """
@@ -387,6 +396,8 @@ class RefractionShader:
     color: tint of the refracted light; in [0, 1]
     eta: refractive index inside over outside; above 0
     roughness: the microfacets' alpha is its square; in [0, 1]
+    distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
+    total_reflection: mirror light past the critical angle, or lose it as Blender does
     """
     def __init__(
         self,
@@ -397,6 +408,8 @@ class RefractionShader:
         ),
         eta: float = 1.5,
         roughness: float = 0.0,
+        distribution: str = "ggx",
+        total_reflection: bool = True,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -408,6 +421,13 @@ class RefractionShader:
     def color(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
     ) -> None: ...
+    @property
+    def distribution(self) -> str:
+        """
+        how the microfacets are turned: multi_ggx, ggx or beckmann
+        """
+    @distribution.setter
+    def distribution(self, value: str) -> None: ...
     @property
     def eta(self) -> float:
         """
@@ -422,6 +442,13 @@ class RefractionShader:
         """
     @roughness.setter
     def roughness(self, value: float) -> None: ...
+    @property
+    def total_reflection(self) -> bool:
+        """
+        mirror light past the critical angle, or lose it as Blender does
+        """
+    @total_reflection.setter
+    def total_reflection(self, value: bool) -> None: ...
 
 class GlassShader:
     """
@@ -431,6 +458,7 @@ class GlassShader:
     T: tint of the refracted light; in [0, 1]
     eta: refractive index inside over outside; above 0
     roughness: the microfacets' alpha is its square; in [0, 1]
+    distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
     """
     def __init__(
         self,
@@ -438,6 +466,7 @@ class GlassShader:
         T: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (1.0, 1.0, 1.0),
         eta: float = 1.5,
         roughness: float = 0.0,
+        distribution: str = "multi_ggx",
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -458,6 +487,13 @@ class GlassShader:
     def T(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
     ) -> None: ...
+    @property
+    def distribution(self) -> str:
+        """
+        how the microfacets are turned: multi_ggx, ggx or beckmann
+        """
+    @distribution.setter
+    def distribution(self, value: str) -> None: ...
     @property
     def eta(self) -> float:
         """
@@ -538,6 +574,7 @@ class PrincipledShader:
     specular_ior_level: 0.5 leaves the index's reflectance as it is; in [0, 1]
     emission: W / (m^2 sr), both sides; at least 0
     alpha: opacity; in [0, 1]
+    distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
     """
     def __init__(
         self,
@@ -553,6 +590,7 @@ class PrincipledShader:
         specular_ior_level: float = 0.5,
         emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
         alpha: float = 1.0,
+        distribution: str = "multi_ggx",
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -571,6 +609,13 @@ class PrincipledShader:
     def base_color(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
     ) -> None: ...
+    @property
+    def distribution(self) -> str:
+        """
+        how the microfacets are turned: multi_ggx, ggx or beckmann
+        """
+    @distribution.setter
+    def distribution(self, value: str) -> None: ...
     @property
     def emission(self) -> tuple[float, float, float]:
         """
