@@ -12,11 +12,15 @@ from .node_view import NodeIndex, NodeView, scaled, shader
 WHITE = (1.0, 1.0, 1.0)
 
 
-def _check_distribution(view: NodeView, *supported: str) -> None:
-    """Warn of microfacet distributions that are drawn as GGX."""
+def _distribution(view: NodeView) -> str:
+    """The name of the node's microfacets in the core."""
     node: Any = view.node
-    if view.number("Roughness") > 0.0 and node.distribution not in supported:
+    name = str(node.distribution).lower()
+    if name in ("multi_ggx", "ggx", "beckmann"):
+        return name
+    if view.number("Roughness") > 0.0:
         view.warn(f"distribution {node.distribution} is drawn as GGX")
+    return "ggx"
 
 
 @shader("ShaderNodeBsdfDiffuse")
@@ -28,18 +32,20 @@ def diffuse(view: NodeView) -> NodeIndex:
 
 @shader("ShaderNodeBsdfAnisotropic")  # the Glossy BSDF's name inside Blender
 def glossy(view: NodeView) -> NodeIndex:
-    """A tinted mirror, rough by GGX."""
-    _check_distribution(view, "GGX", "MULTI_GGX")
+    """A tinted mirror, rough by microfacets."""
     view.ignore(Anisotropy=0.0, Normal=None, Tangent=None)
     return view.add(
-        basicrt.GlossyShader(color=view.color("Color"), roughness=view.number("Roughness", 0, 1))
+        basicrt.GlossyShader(
+            color=view.color("Color"),
+            roughness=view.number("Roughness", 0, 1),
+            distribution=_distribution(view),
+        )
     )
 
 
 @shader("ShaderNodeBsdfGlass")
 def glass(view: NodeView) -> NodeIndex:
     """Fresnel reflection and refraction, both tinted."""
-    _check_distribution(view, "GGX", "MULTI_GGX")
     view.ignore(Normal=None, Thin_Film_Thickness=0.0)
     color = view.color("Color")
     return view.add(
@@ -48,20 +54,22 @@ def glass(view: NodeView) -> NodeIndex:
             T=color,
             eta=view.number("IOR", 1e-5),
             roughness=view.number("Roughness", 0, 1),
+            distribution=_distribution(view),
         )
     )
 
 
 @shader("ShaderNodeBsdfRefraction")
 def refraction(view: NodeView) -> NodeIndex:
-    """Refraction alone."""
-    _check_distribution(view, "GGX")
+    """Refraction alone: what would be reflected past the critical angle is lost."""
     view.ignore(Normal=None)
     return view.add(
         basicrt.RefractionShader(
             color=view.color("Color"),
             eta=view.number("IOR", 1e-5),
             roughness=view.number("Roughness", 0, 1),
+            distribution=_distribution(view),
+            total_reflection=False,
         )
     )
 
@@ -121,6 +129,7 @@ def principled(view: NodeView) -> NodeIndex:
             specular_ior_level=view.number("Specular IOR Level", 0, 1),
             emission=scaled(view.light("Emission Color"), view.number("Emission Strength")),
             alpha=view.number("Alpha", 0, 1),
+            distribution=_distribution(view),
         )
     )
 

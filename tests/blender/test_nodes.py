@@ -36,6 +36,10 @@ def only_node(material: Any, *expected_warnings: str) -> Any:
     return made.nodes[0]
 
 
+def find_node(material: Any, bl_idname: str) -> Any:
+    return next(node for node in material.node_tree.nodes if node.bl_idname == bl_idname)
+
+
 # ---- each node ---------------------------------------------------------------------------------
 
 
@@ -50,6 +54,7 @@ def test_glossy() -> None:
     node = only_node(new_material("ShaderNodeBsdfAnisotropic", Color=COLOR, Roughness=0.25))
     assert isinstance(node, basicrt.GlossyShader)
     assert (node.color, node.roughness) == (COLOR, 0.25)
+    assert node.distribution == "multi_ggx"
 
 
 def test_glass_tints_reflection_and_refraction() -> None:
@@ -62,6 +67,25 @@ def test_refraction() -> None:
     node = only_node(new_material("ShaderNodeBsdfRefraction", Color=COLOR, Roughness=0.0, IOR=1.25))
     assert isinstance(node, basicrt.RefractionShader)
     assert (node.color, node.eta, node.roughness) == (COLOR, 1.25, 0)
+    assert node.distribution == "beckmann"
+    assert not node.total_reflection
+
+
+@pytest.mark.parametrize(
+    ("distribution", "ours"),
+    [("MULTI_GGX", "multi_ggx"), ("GGX", "ggx"), ("BECKMANN", "beckmann")],
+)
+def test_glossy_keeps_its_distribution(distribution: str, ours: str) -> None:
+    material = new_material("ShaderNodeBsdfAnisotropic", Roughness=0.5)
+    find_node(material, "ShaderNodeBsdfAnisotropic").distribution = distribution
+    assert only_node(material).distribution == ours
+
+
+def test_an_unknown_distribution_is_drawn_as_ggx() -> None:
+    material = new_material("ShaderNodeBsdfAnisotropic", Roughness=0.5)
+    find_node(material, "ShaderNodeBsdfAnisotropic").distribution = "ASHIKHMIN_SHIRLEY"
+    warning = 'node "Glossy BSDF": distribution ASHIKHMIN_SHIRLEY is drawn as GGX'
+    assert only_node(material, warning).distribution == "ggx"
 
 
 def test_transparent() -> None:
