@@ -68,7 +68,11 @@ def environment(folder: Path) -> dict[str, str]:
     commands = [c for c in os.environ.get("BASICRT_BLENDER", "").split(os.pathsep) if c]
     if commands:
         shim = folder / "blender"
-        shim.write_text(f'#!/bin/sh\nexec {commands[0]} "$@"\n', encoding="utf-8")
+        # The command must not find this script again under the name that it looks for itself.
+        own_path = shlex.quote(os.environ["PATH"])
+        shim.write_text(
+            f'#!/bin/sh\nPATH={own_path}\nexport PATH\nexec {commands[0]} "$@"\n', encoding="utf-8"
+        )
         shim.chmod(0o755)
     blenders = sorted((ROOT / ".venv").glob("bpy-*/bin"))
     preferred = [path for path in blenders if path.parent.name == "bpy-5.0"] or blenders
