@@ -15,12 +15,12 @@ namespace {
 // The direction that `v` has, or `otherwise` where it has none.
 Vec3d direction_or(Vec3d v, Vec3d otherwise) {
   const double squared = length_squared(v);
-  return squared > 0 && std::isfinite(squared) ? v / std::sqrt(squared) : otherwise;
+  return squared > 0 && std::isfinite(squared) ? v * (1 / std::sqrt(squared)) : otherwise;
 }
 
 // The derivative of n / |n|, given that of n.
-Vec3d unit_derivative(Vec3d unit, Vec3d derivative, double length) {
-  return (derivative - unit * dot(unit, derivative)) / length;
+Vec3d unit_derivative(Vec3d unit, Vec3d derivative, double inverse_length) {
+  return (derivative - unit * dot(unit, derivative)) * inverse_length;
 }
 
 // Taking the point to the world, and taking it back as the origin of the next ray, both round.
@@ -36,42 +36,43 @@ void set_normals(SurfacePoint& point, const TransformD& world_to_object, const L
   point.geometric_normal = point.shading_normal = Vec3f(geometric);
 
   const Vec3d shading = world_to_object.transposed_vector(local.shading_normal);
-  const double shading_length = length(shading);
-  if (!(shading_length > 0 && std::isfinite(shading_length))) return;
-  const Vec3d unit = shading / shading_length;
+  const double inverse_length = 1 / length(shading);
+  if (!(inverse_length > 0 && std::isfinite(inverse_length))) return;
+  const Vec3d unit = shading * inverse_length;
   const double side = dot(unit, geometric) < 0 ? -1 : 1;
   point.shading_normal = Vec3f(unit * side);
-  point.dndu = Vec3f(unit_derivative(unit, world_to_object.transposed_vector(local.dndu), shading_length) * side);
-  point.dndv = Vec3f(unit_derivative(unit, world_to_object.transposed_vector(local.dndv), shading_length) * side);
-}
-
-// The least-squares solution of dpdu * du + dpdv * dv = offset.
-Vec2f to_uv(Vec3d dpdu, Vec3d dpdv, Vec3d offset) {
-  const double uu = length_squared(dpdu), uv = dot(dpdu, dpdv), vv = length_squared(dpdv);
-  const double determinant = uu * vv - uv * uv;
-  if (!(determinant > 0)) return {};
-  const double u = dot(dpdu, offset), v = dot(dpdv, offset);
-  const Vec2f result{static_cast<float>((vv * u - uv * v) / determinant),
-                     static_cast<float>((uu * v - uv * u) / determinant)};
-  return std::isfinite(result.x) && std::isfinite(result.y) ? result : Vec2f{};
+  point.dndu = Vec3f(unit_derivative(unit, world_to_object.transposed_vector(local.dndu), inverse_length) * side);
+  point.dndv = Vec3f(unit_derivative(unit, world_to_object.transposed_vector(local.dndv), inverse_length) * side);
 }
 
 // Igehy 1999, "Tracing Ray Differentials": the neighbouring rays meet the tangent plane.
-void set_differentials(SurfacePoint& point, const Ray& ray, double t, const RayDifferentials& differentials) {
+void set_position_change(SurfacePoint& point, const Ray& ray, double t, const RayDifferentials& differentials) {
   const Vec3d normal(point.geometric_normal), direction(ray.direction);
-  const double cosine = dot(direction, normal);
-  if (cosine == 0) return;
+  const double inverse_cosine = 1 / dot(direction, normal);
+  if (!std::isfinite(inverse_cosine)) return;
   const auto shift = [&](Vec3f origin_change, Vec3f direction_change) {
     const Vec3d moved = Vec3d(origin_change) + Vec3d(direction_change) * t;
-    return moved - direction * (dot(moved, normal) / cosine);
+    return Vec3f(moved - direction * (dot(moved, normal) * inverse_cosine));
   };
-  const Vec3d dpdx = shift(differentials.origin_dx, differentials.direction_dx);
-  const Vec3d dpdy = shift(differentials.origin_dy, differentials.direction_dy);
+  const Vec3f dpdx = shift(differentials.origin_dx, differentials.direction_dx);
+  const Vec3f dpdy = shift(differentials.origin_dy, differentials.direction_dy);
   if (!is_finite(dpdx) || !is_finite(dpdy)) return;
-  point.dpdx = Vec3f(dpdx);
-  point.dpdy = Vec3f(dpdy);
-  point.duvdx = to_uv(Vec3d(point.dpdu), Vec3d(point.dpdv), dpdx);
-  point.duvdy = to_uv(Vec3d(point.dpdu), Vec3d(point.dpdv), dpdy);
+  point.dpdx = dpdx;
+  point.dpdy = dpdy;
+}
+
+// The least-squares solutions of dpdu * du + dpdv * dv = dpdx (dpdy).
+void set_uv_change(SurfacePoint& point) {
+  const Vec3d dpdu(point.dpdu), dpdv(point.dpdv);
+  const double uu = length_squared(dpdu), uv = dot(dpdu, dpdv), vv = length_squared(dpdv);
+  const double inverse_determinant = 1 / (uu * vv - uv * uv);
+  if (!(inverse_determinant > 0 && std::isfinite(inverse_determinant))) return;
+  const auto solve = [&](Vec3f change) {
+    const double u = dot(dpdu, Vec3d(change)), v = dot(dpdv, Vec3d(change));
+    return Vec2f(Vec2d{vv * u - uv * v, uu * v - uv * u} * inverse_determinant);
+  };
+  point.duvdx = solve(point.dpdx);
+  point.duvdy = solve(point.dpdy);
 }
 
 }  // namespace
@@ -98,7 +99,10 @@ SurfacePoint make_surface_point(const Shape& shape, const TransformD& object_to_
   point.primitive = hit.primitive;
   point.material_slot = local.material_slot;
   point.is_backfacing = dot(local_ray.direction, local.normal) > 0;
-  if (differentials) set_differentials(point, ray, hit.t, *differentials);
+  if (differentials) {
+    set_position_change(point, ray, hit.t, *differentials);
+    set_uv_change(point);
+  }
   return point;
 }
 

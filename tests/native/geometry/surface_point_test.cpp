@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surface points against extended precision and finite differences, and the rays that leave them.
+#include "geometry/surface_point.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <random>
+
+#include "geometry/sphere.h"
+#include "geometry/triangle.h"
+
+namespace basicrt {
+namespace {
+
+using Vec3l = Vec3<long double>;
+using TransformL = Affine<long double>;
+
+// A shape somewhere in the world, and a ray that hits it.
+struct Situation {
+  Shape shape;
+  TransformD object_to_world, world_to_object;
+  Ray ray{};
+  Hit hit{};
+
+  [[nodiscard]] SurfacePoint point(const RayDifferentials* differentials = nullptr) const {
+    return make_surface_point(shape, object_to_world, world_to_object, ray, hit, differentials);
+  }
+};
+
+std::optional<Hit> find_hit(const Shape& shape, const TransformD& world_to_object, const Ray& ray) {
+  PreciseRay local = transform_ray(world_to_object, ray);
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) {
+    const auto hit = intersect_triangle(local, mesh->position(0, 0), mesh->position(0, 1), mesh->position(0, 2));
+    if (!hit) return std::nullopt;
+    return Hit{static_cast<float>(hit->t), 3, 0, static_cast<float>(hit->u), static_cast<float>(hit->v)};
+  }
+  const Sphere& sphere = std::get<Sphere>(shape);
+  const auto t = intersect_sphere(local, sphere);
+  if (!t) return std::nullopt;
+  const Vec2f uv(sphere_uv(local.origin + local.direction * *t - Vec3d(sphere.center)));
+  return Hit{static_cast<float>(*t), 3, 0, uv.x, uv.y};
+}
+
+class SurfacePointTest : public testing::Test {
+ protected:
+  std::mt19937 rng_{31};
+
+  float uniform(float lower, float upper) { return std::uniform_real_distribution<float>(lower, upper)(rng_); }
+  Vec3f random_point(float reach) {
+    const float x = uniform(-reach, reach), y = uniform(-reach, reach), z = uniform(-reach, reach);
+    return {x, y, z};
+  }
+  // Of any size from a millimetre to a kilometre.
+  float random_size() { return std::exp(uniform(std::log(1e-3f), std::log(1e3f))); }
+
+  TransformD random_transform(double scale) {
+    TransformD m;
+    do {
+      for (auto& row : m.rows)
+        for (double& x : row) x = double{uniform(-1, 1)} * scale;
+    } while (std::abs(m.determinant()) < 0.05 * scale * scale * scale);
+    return m;
+  }
+  Mesh random_triangle(float size) {
+    Mesh mesh;
+    const Vec3f center = random_point(size * uniform(0, 100));
+    for (int i = 0; i < 3; ++i) mesh.positions.push_back(center + random_point(size));
+    mesh.triangles = {{0, 1, 2}};
+    return mesh;
+  }
+  void add_normals_and_uvs(Mesh& mesh) {
+    const Vec3f normal = normalize(cross(mesh.positions[1] - mesh.positions[0], mesh.positions[2] - mesh.positions[0]));
+    for (int i = 0; i < 3; ++i) {
+      mesh.corner_normals.push_back(normalize(normal + random_point(0.4f)));
+      const float u = uniform(0, 1), v = uniform(0, 1);
+      mesh.uvs.push_back({u, v});
+    }
+  }
+  // Sheared and scaled, but not so much that a small step on the surface is a large one in uv.
+  TransformD mild_transform() {
+    TransformD m;
+    for (auto& row : m.rows)
+      for (double& x : row) x += double{uniform(-0.25f, 0.25f)};
+    return m;
+  }
+  // With uvs and corner normals, and mildly transformed, where derivatives are looked at.
+  Situation random_situation(bool is_sphere, bool is_for_derivatives = false) {
+    for (;;) {
+      const float size = random_size();
+      Situation s;
+      if (is_sphere) {
+        s.shape = Sphere{random_point(3 * size), size};
+      } else {
+        Mesh mesh = random_triangle(size);
+        if (is_for_derivatives) add_normals_and_uvs(mesh);
+        s.shape = mesh;
+      }
+      s.object_to_world = is_for_derivatives ? mild_transform() : random_transform(double{uniform(0.5f, 2)});
+      s.world_to_object = inverse(s.object_to_world);
+      const Bounds3f box = transform_bounds(Transform(s.object_to_world), bounds(s.shape));
+      s.ray.origin = box.center() + random_point(3 * max_component(box.extent()));
+      const Vec3f target = box.lower + box.extent() * (random_point(0.5f) + Vec3f(0.5f));
+      s.ray.direction = normalize(target - s.ray.origin);
+      if (const auto hit = find_hit(s.shape, s.world_to_object, s.ray)) {
+        s.hit = *hit;
+        return s;
+      }
+    }
+  }
+};
+
+// The hit in extended precision.
+Vec3l exact_position(const Situation& s) {
+  const TransformL to_world(s.object_to_world), to_object(s.world_to_object);
+  const Vec3l origin = to_object.point(Vec3l(s.ray.origin)), direction = to_object.vector(Vec3l(s.ray.direction));
+  if (const Mesh* mesh = std::get_if<Mesh>(&s.shape)) {
+    const Vec3l p0(mesh->positions[0]), e1 = Vec3l(mesh->positions[1]) - p0, e2 = Vec3l(mesh->positions[2]) - p0;
+    const Vec3l normal = cross(e1, e2);
+    return to_world.point(origin + direction * (dot(p0 - origin, normal) / dot(direction, normal)));
+  }
+  const Sphere& sphere = std::get<Sphere>(s.shape);
+  const Vec3l from_center = origin - Vec3l(sphere.center);
+  const long double a = length_squared(direction), b = dot(from_center, direction);
+  const long double c = length_squared(from_center) - static_cast<long double>(sphere.radius) * sphere.radius;
+  const long double root = std::sqrt(std::max(0.0L, b * b - a * c));
+  const long double near_t = (-b - root) / a, far_t = (-b + root) / a;
+  const bool is_near = std::abs(near_t - s.hit.t) < std::abs(far_t - s.hit.t);
+  return to_world.point(origin + direction * (is_near ? near_t : far_t));
+}
+
+TEST_F(SurfacePointTest, position_is_within_its_error_bound) {
+  for (const bool is_sphere : {false, true})
+    for (int i = 0; i < 20000; ++i) {
+      const Situation s = random_situation(is_sphere);
+      const SurfacePoint point = s.point();
+      const Vec3l exact = exact_position(s);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const long double error = std::abs(exact[axis] - static_cast<long double>(point.position[axis]));
+        ASSERT_LE(error, static_cast<long double>(point.position_error[axis])) << i << (is_sphere ? " sphere" : "");
+      }
+    }
+}
+
+TEST_F(SurfacePointTest, the_error_bound_is_about_a_rounding) {
+  for (const bool is_sphere : {false, true}) {
+    int tight = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const SurfacePoint point = random_situation(is_sphere).point();
+      tight += max_component(point.position_error) <= 0x1p-22f * max_component(abs(point.position));
+    }
+    EXPECT_GT(tight, 990) << (is_sphere ? "sphere" : "triangle");
+  }
+}
+
+// The ray that leaves must not find the surface it left, wherever it goes.
+TEST_F(SurfacePointTest, rays_that_leave_do_not_meet_their_own_surface) {
+  for (const bool is_sphere : {false, true}) {
+    int self_hits = 0;
+    for (int i = 0; i < 50000; ++i) {
+      const Situation s = random_situation(is_sphere);
+      const SurfacePoint point = s.point();
+      Vec3f direction = normalize(random_point(1));
+      // From inside a sphere the far side is met, and rightly so.
+      if (is_sphere && dot(direction, point.geometric_normal) < 0) direction = -direction;
+      const Ray next{.origin = offset_origin(point, direction), .direction = direction};
+      self_hits += find_hit(s.shape, s.world_to_object, next).has_value();
+    }
+    EXPECT_EQ(self_hits, 0) << (is_sphere ? "sphere" : "triangle");
+  }
+}
+
+TEST_F(SurfacePointTest, rays_into_a_sphere_meet_only_its_far_side) {
+  for (int i = 0; i < 20000; ++i) {
+    const Situation s = random_situation(true);
+    const SurfacePoint point = s.point();
+    const Vec3f direction = normalize(random_point(1));
+    const float cosine = -dot(direction, point.geometric_normal);
+    if (cosine < 0.01f) continue;
+    const auto hit =
+        find_hit(s.shape, s.world_to_object, {.origin = offset_origin(point, direction), .direction = direction});
+    ASSERT_TRUE(hit) << i;
+    const Vec3d crossed = Vec3d(direction) * double{hit->t};
+    const double radius = double{std::get<Sphere>(s.shape).radius};
+    EXPECT_GT(length(s.world_to_object.vector(crossed)), 1e-3 * radius) << i;
+  }
+}
+
+TEST_F(SurfacePointTest, rays_that_leave_meet_a_surface_close_by) {
+  int found = 0, tried = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Situation s = random_situation(false);
+    const SurfacePoint point = s.point();
+    const Vec3f normal = point.geometric_normal;
+    // The same triangle, moved away by a few times the error and pushed against by a ray along the normal.
+    const float gap = 8 * dot(abs(normal), point.position_error) + 4e-7f * max_component(abs(point.position));
+    TransformD moved = s.object_to_world;
+    for (std::size_t axis = 0; axis < 3; ++axis) moved.rows[axis][3] += double{normal[axis] * gap};
+    ++tried;
+    const Ray next{.origin = offset_origin(point, normal), .direction = normal};
+    const auto hit = find_hit(s.shape, inverse(moved), next);
+    found += hit.has_value();
+    EXPECT_TRUE(!hit || hit->t <= gap);
+  }
+  // Points within a gap of the triangle's edges may pass by.
+  EXPECT_GT(found, tried * 999 / 1000);
+}
+
+TEST_F(SurfacePointTest, the_offset_goes_to_the_side_of_the_direction_and_no_farther_than_a_few_roundings) {
+  for (int i = 0; i < 1000; ++i) {
+    const SurfacePoint point = random_situation(false).point();
+    const Vec3d normal(point.geometric_normal);
+    for (const float side : {1.0f, -1.0f}) {
+      const Vec3f origin = offset_origin(point, point.geometric_normal * side);
+      const double moved = dot(Vec3d(origin) - Vec3d(point.position), normal) * double{side};
+      EXPECT_GT(moved, 0);
+      EXPECT_LT(moved, 4 * double{length(point.position_error)} + 1e-6 * double{length(point.position)});
+    }
+  }
+}
+
+// What the two rays a step back and a step ahead find: their difference is free of second-order terms.
+struct Neighbours {
+  SurfacePoint behind, ahead;
+
+  [[nodiscard]] Vec3d position_change() const { return Vec3d(ahead.position) - Vec3d(behind.position); }
+  [[nodiscard]] Vec3d normal_change() const { return Vec3d(ahead.shading_normal) - Vec3d(behind.shading_normal); }
+  [[nodiscard]] Vec2d uv_change() const { return Vec2d(ahead.uv) - Vec2d(behind.uv); }
+};
+
+std::optional<SurfacePoint> find_neighbour(Situation s, Vec3f origin_step, Vec3f direction_step) {
+  s.ray.origin += origin_step;
+  s.ray.direction += direction_step;
+  const auto hit = find_hit(s.shape, s.world_to_object, s.ray);
+  if (!hit) return std::nullopt;
+  s.hit = *hit;
+  return s.point();
+}
+
+std::optional<Neighbours> find_neighbours(const Situation& s, Vec3f origin_step, Vec3f direction_step) {
+  const auto behind = find_neighbour(s, -origin_step, -direction_step);
+  const auto ahead = find_neighbour(s, origin_step, direction_step);
+  if (!behind || !ahead) return std::nullopt;
+  return Neighbours{*behind, *ahead};
+}
+
+// Steps of a thousandth of the shape, seen fairly flat on from some way off, away from the seam and poles of a sphere's uv.
+std::optional<Neighbours> find_neighbours(const Situation& s, const SurfacePoint& point, Vec3f towards) {
+  const bool is_sphere = std::holds_alternative<Sphere>(s.shape);
+  if (std::abs(dot(s.ray.direction, point.geometric_normal)) < 0.5f) return std::nullopt;
+  if (is_sphere && (std::abs(point.uv.y - 0.5f) > 0.4f || std::abs(point.uv.x - 0.5f) > 0.49f)) return std::nullopt;
+  const Bounds3f box = transform_bounds(Transform(s.object_to_world), bounds(s.shape));
+  const float size = max_component(box.extent());
+  if (s.hit.t < 0.01f * size) return std::nullopt;  // a step would cross the surface
+  return find_neighbours(s, towards * (1e-3f * size), Vec3f(0));
+}
+
+// Of differences of floats of this size.
+double rounding_of(const SurfacePoint& point) {
+  return 2.5e-7 * (length(Vec3d(point.position)) + length(Vec3d(point.dpdu)) + length(Vec3d(point.dpdv)));
+}
+
+TEST_F(SurfacePointTest, dpdu_and_dpdv_are_the_change_of_position_with_uv) {
+  for (const bool is_sphere : {false, true}) {
+    int compared = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Situation s = random_situation(is_sphere, true);
+      const SurfacePoint point = s.point();
+      const auto near_by = find_neighbours(s, point, random_point(1));
+      if (!near_by) continue;
+      const Vec3d expected = near_by->position_change();
+      const Vec3d predicted = Vec3d(point.dpdu) * near_by->uv_change().x + Vec3d(point.dpdv) * near_by->uv_change().y;
+      EXPECT_LT(length(expected - predicted), 1e-3 * length(expected) + rounding_of(point))
+          << i << (is_sphere ? " sphere" : " triangle");
+      ++compared;
+    }
+    EXPECT_GT(compared, 1000);
+  }
+}
+
+TEST_F(SurfacePointTest, dndu_and_dndv_are_the_change_of_the_shading_normal_with_uv) {
+  for (const bool is_sphere : {false, true}) {
+    int compared = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Situation s = random_situation(is_sphere, true);
+      const SurfacePoint point = s.point();
+      const auto near_by = find_neighbours(s, point, random_point(1));
+      if (!near_by) continue;
+      const Vec3d expected = near_by->normal_change();
+      if (length(expected) > 1) continue;  // shading normals turn over where they pass under the surface
+      const Vec2d uv_change = near_by->uv_change();
+      const Vec3d predicted = Vec3d(point.dndu) * uv_change.x + Vec3d(point.dndv) * uv_change.y;
+      const double rounding = 2.5e-7 * (1 + length(Vec3d(point.dndu)) + length(Vec3d(point.dndv)));
+      EXPECT_LT(length(expected - predicted), 1e-3 * length(expected) + rounding)
+          << i << (is_sphere ? " sphere" : " triangle");
+      ++compared;
+    }
+    EXPECT_GT(compared, 1000);
+  }
+}
+
+TEST_F(SurfacePointTest, differentials_are_the_change_to_a_neighbouring_ray) {
+  for (const bool is_sphere : {false, true}) {
+    int compared = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Situation s = random_situation(is_sphere, true);
+      const Bounds3f box = transform_bounds(Transform(s.object_to_world), bounds(s.shape));
+      const float size = max_component(box.extent()), angle = std::min(1.0f, size / s.hit.t);
+      const RayDifferentials differentials{.origin_dx = random_point(size),
+                                           .origin_dy = random_point(size),
+                                           .direction_dx = random_point(angle),
+                                           .direction_dy = random_point(angle)};
+      const SurfacePoint point = s.point(&differentials);
+      if (!find_neighbours(s, point, Vec3f(0))) continue;  // seen flat on
+      const auto compare = [&](Vec3f origin_change, Vec3f direction_change, Vec3f dp, Vec2f duv) {
+        constexpr float step = 1e-3f;
+        const auto near_by = find_neighbours(s, origin_change * step, direction_change * step);
+        if (!near_by) return;
+        const Vec3d expected = near_by->position_change();
+        EXPECT_LT(length(expected - Vec3d(dp) * 2e-3), 1e-2 * length(expected) + rounding_of(point))
+            << i << (is_sphere ? " sphere" : " triangle");
+        // The difference in uv, taken to space.
+        const Vec2d uv_error = near_by->uv_change() - Vec2d(duv) * 2e-3;
+        const Vec3d in_space = Vec3d(point.dpdu) * uv_error.x + Vec3d(point.dpdv) * uv_error.y;
+        EXPECT_LT(length(in_space), 2e-2 * length(expected) + rounding_of(point))
+            << i << (is_sphere ? " sphere" : " triangle");
+        ++compared;
+      };
+      compare(differentials.origin_dx, differentials.direction_dx, point.dpdx, point.duvdx);
+      compare(differentials.origin_dy, differentials.direction_dy, point.dpdy, point.duvdy);
+    }
+    EXPECT_GT(compared, 1000);
+  }
+}
+
+TEST_F(SurfacePointTest, normals_are_perpendicular_to_the_surface_and_of_unit_length) {
+  for (const bool is_sphere : {false, true})
+    for (int i = 0; i < 1000; ++i) {
+      const SurfacePoint point = random_situation(is_sphere, true).point();
+      EXPECT_NEAR(length(point.geometric_normal), 1, 1e-6);
+      EXPECT_NEAR(length(point.shading_normal), 1, 1e-6);
+      EXPECT_NEAR(dot(point.geometric_normal, normalize(point.dpdu)), 0, 1e-5);
+      EXPECT_NEAR(dot(point.geometric_normal, normalize(point.dpdv)), 0, 1e-5);
+      EXPECT_GE(dot(point.geometric_normal, point.shading_normal), 0);
+    }
+}
+
+// A triangle in the plane z = 0, wound so that its normal is +z, seen from z = 2.
+Situation simple_situation(const TransformD& object_to_world) {
+  Mesh mesh;
+  mesh.positions = {{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  Situation s{.shape = mesh, .object_to_world = object_to_world, .world_to_object = inverse(object_to_world)};
+  s.ray = {.origin = {0.25f, 0.5f, 2}, .direction = {0, 0, -1}};
+  s.hit = find_hit(s.shape, s.world_to_object, s.ray).value();
+  return s;
+}
+
+TEST(SurfacePointSides, a_mirrored_surface_keeps_its_outward_side) {
+  const TransformD mirrored({{{-1, 0, 0, 0.5}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
+  const TransformD flipped({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}}});
+  EXPECT_EQ(simple_situation({}).point().geometric_normal, Vec3f(0, 0, 1));
+  EXPECT_EQ(simple_situation(mirrored).point().geometric_normal, Vec3f(0, 0, 1));
+  EXPECT_EQ(simple_situation(flipped).point().geometric_normal, Vec3f(0, 0, -1));
+  EXPECT_FALSE(simple_situation(mirrored).point().is_backfacing);
+  EXPECT_TRUE(simple_situation(flipped).point().is_backfacing);
+}
+
+TEST(SurfacePointSides, normals_keep_the_surfaces_side_whichever_side_was_hit) {
+  Situation s = simple_situation({});
+  s.ray = {.origin = {0.25f, 0.5f, -2}, .direction = {0, 0, 1}};
+  const SurfacePoint point = s.point();
+  EXPECT_EQ(point.geometric_normal, Vec3f(0, 0, 1));
+  EXPECT_EQ(point.shading_normal, Vec3f(0, 0, 1));
+  EXPECT_TRUE(point.is_backfacing);
+}
+
+TEST(SurfacePointSides, the_winding_decides_and_corner_normals_follow) {
+  Situation s = simple_situation({});
+  std::get<Mesh>(s.shape).corner_normals.assign(3, normalize(Vec3f{0.3f, 0, -1}));
+  const SurfacePoint point = s.point();
+  EXPECT_EQ(point.geometric_normal, Vec3f(0, 0, 1));
+  EXPECT_LT(length(point.shading_normal - normalize(Vec3f{-0.3f, 0, 1})), 1e-6f);
+}
+
+TEST(SurfacePointSides, corner_normals_that_cancel_leave_the_geometric_normal) {
+  Situation s = simple_situation({});
+  std::get<Mesh>(s.shape).corner_normals.assign(3, Vec3f(0));
+  EXPECT_EQ(s.point().shading_normal, Vec3f(0, 0, 1));
+}
+
+TEST(SurfacePointSides, sphere_normals_point_outward_under_any_transform) {
+  for (const double sign : {1.0, -1.0}) {
+    const TransformD squashed({{{sign * 2, 0, 0, 1}, {0, 0.5, 0, 0}, {0, 0, 1, 0}}});
+    Situation s{.shape = Sphere{}, .object_to_world = squashed, .world_to_object = inverse(squashed)};
+    s.ray = {.origin = {2, 0.1f, 5}, .direction = {0, 0, -1}};
+    s.hit = find_hit(s.shape, s.world_to_object, s.ray).value();
+    const SurfacePoint point = s.point();
+    // The gradient of (x-1)^2/4 + 4 y^2 + z^2.
+    const Vec3f p = point.position;
+    EXPECT_LT(length(point.geometric_normal - normalize(Vec3f{(p.x - 1) / 4, 4 * p.y, p.z})), 1e-6f);
+    EXPECT_FALSE(point.is_backfacing);
+  }
+}
+
+TEST(SurfacePointUv, is_interpolated_or_barycentric_and_survives_a_degenerate_mapping) {
+  Situation s = simple_situation({});
+  EXPECT_NEAR(s.point().uv.x, 1.25f / 3, 1e-6);
+  EXPECT_NEAR(s.point().uv.y, 0.5f, 1e-6);
+  Mesh& mesh = std::get<Mesh>(s.shape);
+  mesh.uvs = {{-1, -1}, {2, -1}, {-1, 2}};
+  EXPECT_NEAR(s.point().uv.x, 0.25f, 1e-6);
+  EXPECT_LT(length(s.point().dpdu - Vec3f{1, 0, 0}), 1e-6f);
+  EXPECT_LT(length(s.point().dpdv - Vec3f{0, 1, 0}), 1e-6f);
+  mesh.uvs.assign(3, {0.5f, 0.25f});
+  const SurfacePoint point = s.point();
+  EXPECT_EQ(point.uv, Vec2f(0.5f, 0.25f));
+  EXPECT_GT(length(cross(point.dpdu, point.dpdv)), 0.1f);
+}
+
+TEST(SurfacePointData, carries_instance_primitive_and_material_slot) {
+  Situation s = simple_situation({});
+  EXPECT_EQ(s.point().material_slot, 0u);
+  std::get<Mesh>(s.shape).material_slots = {5};
+  s.hit.instance = 7;
+  const SurfacePoint point = s.point();
+  EXPECT_EQ(point.material_slot, 5u);
+  EXPECT_EQ(point.instance, 7u);
+  EXPECT_EQ(point.primitive, 0u);
+}
+
+}  // namespace
+}  // namespace basicrt
