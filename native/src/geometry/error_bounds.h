@@ -2,10 +2,10 @@
 // Running error bounds of computations in double precision.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include "math/next_float.h"
 #include "math/transform.h"
 
 namespace basicrt {
@@ -18,28 +18,25 @@ constexpr double gamma(int n) {
 
 // Of each coordinate of transform.vector(p), given that each coordinate of p is off by at most `error`.
 inline Vec3d spread(const TransformD& transform, Vec3d error) {
-  Vec3d result;
-  for (std::size_t i = 0; i < 3; ++i)
-    result[i] = std::abs(transform.rows[i][0]) * error.x + std::abs(transform.rows[i][1]) * error.y +
-                std::abs(transform.rows[i][2]) * error.z;
-  return result;
+  const auto of_row = [&](const std::array<double, 4>& row) {
+    return std::abs(row[0]) * error.x + std::abs(row[1]) * error.y + std::abs(row[2]) * error.z;
+  };
+  return {of_row(transform.rows[0]), of_row(transform.rows[1]), of_row(transform.rows[2])};
 }
 
-// Of each coordinate of transform.point(p) by rounding alone.
-inline Vec3d point_rounding(const TransformD& transform, Vec3d p) {
-  return (spread(transform, abs(p)) + abs(transform.column(3))) * gamma(4);
+// Of each coordinate of transform.point(p), given that each coordinate of p is off by at most `error`.
+inline Vec3d point_error(const TransformD& transform, Vec3d p, Vec3d error) {
+  return spread(transform, error + abs(p) * gamma(4)) + abs(transform.column(3)) * gamma(4);
 }
 
-// What rounding p to floats adds to an error: half a unit in the last place, or the smallest float near zero. The
-// result is rounded up.
-inline Vec3f round_up_with_float_error(Vec3d p, Vec3d error) {
-  Vec3f result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto rounded = static_cast<float>(p[i]);
-    const double bound = error[i] + std::abs(p[i] - static_cast<double>(rounded));
-    result[i] = next_float_up(static_cast<float>(bound));
-  }
-  return result;
+// At least the error of p after it is rounded to floats too.
+inline Vec3f add_float_rounding(Vec3d p, Vec3d error) {
+  const auto add = [](double x, double x_error) {
+    const double bound = x_error + std::abs(x - static_cast<double>(static_cast<float>(x)));
+    // Rounding the bound itself takes off less than is added here.
+    return static_cast<float>(bound * (1 + 0x1p-23)) + std::numeric_limits<float>::denorm_min();
+  };
+  return {add(p.x, error.x), add(p.y, error.y), add(p.z, error.z)};
 }
 
 }  // namespace basicrt

@@ -26,8 +26,8 @@ Vec3d unit_derivative(Vec3d unit, Vec3d derivative, double inverse_length) {
 // Taking the point to the world, and taking it back as the origin of the next ray, both round.
 Vec3d world_error(const TransformD& object_to_world, const TransformD& world_to_object, const LocalPoint& local,
                   Vec3d position) {
-  const Vec3d local_error = local.error + point_rounding(world_to_object, position);
-  return spread(object_to_world, local_error) + point_rounding(object_to_world, local.position);
+  const Vec3d error_back = point_error(world_to_object, position, Vec3d(0));
+  return point_error(object_to_world, local.position, local.error + error_back);
 }
 
 void set_normals(SurfacePoint& point, const TransformD& world_to_object, const LocalPoint& local) {
@@ -89,8 +89,7 @@ SurfacePoint make_surface_point(const Shape& shape, const TransformD& object_to_
   SurfacePoint point;
   const Vec3d position = object_to_world.point(local.position);
   point.position = Vec3f(position);
-  point.position_error =
-      round_up_with_float_error(position, world_error(object_to_world, world_to_object, local, position));
+  point.position_error = add_float_rounding(position, world_error(object_to_world, world_to_object, local, position));
   set_normals(point, world_to_object, local);
   point.uv = Vec2f(local.uv);
   point.dpdu = Vec3f(object_to_world.vector(local.dpdu));
@@ -111,14 +110,12 @@ SurfacePoint make_surface_point(const Shape& shape, const TransformD& object_to_
 Vec3f offset_origin(const SurfacePoint& point, Vec3f direction) {
   const Vec3f normal = point.geometric_normal;
   const float distance = dot(abs(normal), point.position_error);
-  const float side = dot(direction, normal) < 0 ? -1.0f : 1.0f;
-  Vec3f result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float offset = side * normal[axis] * distance;
-    const float moved = point.position[axis] + offset;
-    result[axis] = offset > 0 ? next_float_up(moved) : offset < 0 ? next_float_down(moved) : moved;
-  }
-  return result;
+  const Vec3f offset = normal * (dot(direction, normal) < 0 ? -distance : distance);
+  const auto move = [](float position, float by) {
+    const float moved = position + by;
+    return by > 0 ? next_float_up(moved) : by < 0 ? next_float_down(moved) : moved;
+  };
+  return {move(point.position.x, offset.x), move(point.position.y, offset.y), move(point.position.z, offset.z)};
 }
 
 }  // namespace basicrt

@@ -52,15 +52,17 @@ struct Derivatives {
 // the uvs don't span the plane.
 struct UvEdges {
   Vec2d first, second;
-  double determinant = 0;
+  double inverse_determinant;
 
   explicit UvEdges(const std::array<Vec2d, 3>& uv)
-      : first(uv[1] - uv[0]), second(uv[2] - uv[0]), determinant(first.x * second.y - first.y * second.x) {}
-  [[nodiscard]] bool is_usable() const { return determinant != 0 && std::isfinite(1 / determinant); }
+      : first(uv[1] - uv[0]),
+        second(uv[2] - uv[0]),
+        inverse_determinant(1 / (first.x * second.y - first.y * second.x)) {}
+  [[nodiscard]] bool is_usable() const { return std::isfinite(inverse_determinant); }
   [[nodiscard]] Derivatives derivatives(const Corners& values) const {
     const Vec3d along1 = values[1] - values[0], along2 = values[2] - values[0];
-    const double scale = 1 / determinant;
-    return {(along1 * second.y - along2 * first.y) * scale, (along2 * first.x - along1 * second.x) * scale};
+    return {(along1 * second.y - along2 * first.y) * inverse_determinant,
+            (along2 * first.x - along1 * second.x) * inverse_determinant};
   }
 };
 
@@ -68,38 +70,40 @@ struct UvEdges {
 
 LocalPoint local_point_on_triangle(const Mesh& mesh, const PreciseRay& ray, const Hit& hit) {
   const std::uint32_t triangle = hit.primitive;
+  const std::size_t first_corner = 3 * std::size_t{triangle};
   const Vec3f p0 = mesh.position(triangle, 0), p1 = mesh.position(triangle, 1), p2 = mesh.position(triangle, 2);
   const Corners positions{Vec3d(p0), Vec3d(p1), Vec3d(p2)};
   const auto weights = barycentric(intersect_triangle_plane(ray, p0, p1, p2), hit);
-
-  LocalPoint point;
-  point.position = interpolate(positions, weights);
-  point.error = position_error(positions, weights, point.position, ray);
-  point.normal = cross(positions[1] - positions[0], positions[2] - positions[0]);
-  point.material_slot = mesh.material_slots.empty() ? 0 : mesh.material_slots[triangle];
+  const Vec3d position = interpolate(positions, weights);
 
   // Without texture coordinates, or where they are all on a line, the barycentrics parametrise the triangle.
   std::array<Vec2d, 3> uv{Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{0, 1}};
   UvEdges edges(uv);
   if (!mesh.uvs.empty()) {
-    for (std::size_t i = 0; i < 3; ++i) uv[i] = Vec2d(mesh.uvs[3 * std::size_t{triangle} + i]);
+    for (std::size_t i = 0; i < 3; ++i) uv[i] = Vec2d(mesh.uvs[first_corner + i]);
     const UvEdges given(uv);
     if (given.is_usable()) edges = given;
   }
-  point.uv = uv[0] * weights[0] + uv[1] * weights[1] + uv[2] * weights[2];
   const Derivatives position_change = edges.derivatives(positions);
-  point.dpdu = position_change.du;
-  point.dpdv = position_change.dv;
 
+  Vec3d shading_normal;
+  Derivatives normal_change;
   if (!mesh.corner_normals.empty()) {
     Corners normals;
-    for (std::size_t i = 0; i < 3; ++i) normals[i] = Vec3d(mesh.corner_normals[3 * std::size_t{triangle} + i]);
-    point.shading_normal = interpolate(normals, weights);
-    const Derivatives normal_change = edges.derivatives(normals);
-    point.dndu = normal_change.du;
-    point.dndv = normal_change.dv;
+    for (std::size_t i = 0; i < 3; ++i) normals[i] = Vec3d(mesh.corner_normals[first_corner + i]);
+    shading_normal = interpolate(normals, weights);
+    normal_change = edges.derivatives(normals);
   }
-  return point;
+  return {.position = position,
+          .error = position_error(positions, weights, position, ray),
+          .normal = cross(positions[1] - positions[0], positions[2] - positions[0]),
+          .shading_normal = shading_normal,
+          .uv = uv[0] * weights[0] + uv[1] * weights[1] + uv[2] * weights[2],
+          .dpdu = position_change.du,
+          .dpdv = position_change.dv,
+          .dndu = normal_change.du,
+          .dndv = normal_change.dv,
+          .material_slot = mesh.material_slots.empty() ? 0 : mesh.material_slots[triangle]};
 }
 
 }  // namespace basicrt
