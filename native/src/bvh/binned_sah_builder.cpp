@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <limits>
+#include <vector>
 
 #include "bvh/builders.h"
+#include "math/simd.h"
 
 namespace basicrt {
 namespace {
@@ -17,17 +19,59 @@ constexpr int deepest_sah_split = 64;
 // The work of visiting a node, in tests of a primitive.
 constexpr double node_cost = 1.0;
 
+// Bounds with an axis in each lane, and one to spare.
+struct Box {
+  Float4 lower = Float4::all(std::numeric_limits<float>::infinity());
+  Float4 upper = Float4::all(-std::numeric_limits<float>::infinity());
+
+  Box() = default;
+  explicit Box(const Bounds3f& box)
+      : lower(Float4::of(box.lower.x, box.lower.y, box.lower.z, 0)),
+        upper(Float4::of(box.upper.x, box.upper.y, box.upper.z, 0)) {}
+
+  void extend(Float4 point) {
+    lower = min(lower, point);
+    upper = max(upper, point);
+  }
+  void extend(const Box& box) {
+    lower = min(lower, box.lower);
+    upper = max(upper, box.upper);
+  }
+  // That of an empty box is the origin.
+  [[nodiscard]] Float4 center() const {
+    const Float4 half = Float4::all(0.5f), middle = lower * half + upper * half;
+    return select(middle == middle, middle, Float4::all(0));
+  }
+  [[nodiscard]] Bounds3f bounds() const {
+    alignas(16) float l[4], u[4];
+    lower.store(l);
+    upper.store(u);
+    return {{l[0], l[1], l[2]}, {u[0], u[1], u[2]}};
+  }
+};
+
+double half_area(const Box& box) {
+  const Bounds3f bounds = box.bounds();
+  return Bounds3<double>{Vec3d(bounds.lower), Vec3d(bounds.upper)}.half_area();
+}
+
+// A primitive, moved about rather than looked up, so that memory is read in order.
+struct Reference {
+  Box box;
+  std::uint32_t primitive;
+};
+
 struct Bin {
-  Bounds3f bounds;
+  Box box;
   std::uint32_t count = 0;
 
-  void add(const Bin& other) {
-    bounds.extend(other.bounds);
-    count += other.count;
+  void add(const Box& other, std::uint32_t other_count) {
+    box.extend(other);
+    count += other_count;
   }
-  // The chance that a ray meets the bounds, up to a factor, times the primitives to test then.
+  // The chance that a ray meets the box, up to a factor, times the primitives to test then. An empty side is no split.
   [[nodiscard]] double cost() const {
-    return count == 0 ? 0 : Bounds3<double>{Vec3d(bounds.lower), Vec3d(bounds.upper)}.half_area() * count;
+    return count == 0 ? std::numeric_limits<double>::infinity() : half_area(box) * count;
   }
 };
 
@@ -37,50 +81,57 @@ struct Split {
   int bin = 0;  // the first that goes right
 };
 
-// Which bin a centroid is in, along one axis.
-struct Binning {
-  double lower, bins_per_length;
-  int last;
-
-  Binning(const Bounds3f& centroids, std::size_t axis, int bins)
-      : lower(centroids.lower[axis]),
-        bins_per_length(bins / (static_cast<double>(centroids.upper[axis]) - lower)),
-        last(bins - 1) {}
-  [[nodiscard]] int bin(float position) const {
-    return std::clamp(static_cast<int>((position - lower) * bins_per_length), 0, last);
+// Which bin a centroid is in, along each axis. Where they are all at the same place, or their extent or its inverse is
+// no float, that is bin 0.
+class Binning {
+ public:
+  Binning(const Box& centroids, int bins) : lower_(centroids.lower), last_(bins - 1) {
+    const Float4 largest = Float4::all(std::numeric_limits<float>::max());
+    const Float4 scale = Float4::all(static_cast<float>(bins)) / (centroids.upper - centroids.lower);
+    scale_ = select(scale <= largest, scale, Float4::all(0));
   }
+  [[nodiscard]] std::array<int, 3> bins(Float4 centroid) const {
+    alignas(16) float positions[4];
+    // Infinity times zero counts as zero.
+    max((centroid - lower_) * scale_, Float4::all(0)).store(positions);
+    const auto bin = [&](float position) { return std::min(static_cast<int>(position), last_); };
+    return {bin(positions[0]), bin(positions[1]), bin(positions[2])};
+  }
+
+ private:
+  Float4 lower_, scale_;
+  int last_;
 };
 
 class BinnedSahBuilder {
  public:
   BinnedSahBuilder(std::span<const Bounds3f> bounds, const BvhConfig& config)
-      : bounds_(bounds),
-        bins_(std::clamp(config.bins, 2, most_bins)),
+      : bin_count_(std::clamp(config.bins, 2, most_bins)),
         max_leaf_size_(static_cast<std::uint32_t>(std::max(1, config.max_leaf_size))) {
+    references_.reserve(bounds.size());
+    for (std::uint32_t i = 0; i < bounds.size(); ++i) references_.push_back({Box(bounds[i]), i});
     bvh_.nodes.reserve(bounds.size());
-    bvh_.primitives.resize(bounds.size());
-    std::iota(bvh_.primitives.begin(), bvh_.primitives.end(), 0u);
   }
 
   Bvh build() {
-    build_node(0, static_cast<std::uint32_t>(bvh_.primitives.size()), 0);
+    build_node(0, static_cast<std::uint32_t>(references_.size()), 0);
+    bvh_.primitives.reserve(references_.size());
+    for (const Reference& reference : references_) bvh_.primitives.push_back(reference.primitive);
     return std::move(bvh_);
   }
 
  private:
-  // Over primitives[begin, end).
+  // Over references_[begin, end).
   void build_node(std::uint32_t begin, std::uint32_t end, int depth) {
     const std::size_t index = bvh_.nodes.size();
-    BvhNode node;
-    Bounds3f centroids;
+    Box box, centroids;
     for (std::uint32_t i = begin; i < end; ++i) {
-      const Bounds3f& box = bounds_[bvh_.primitives[i]];
-      node.bounds.extend(box);
-      centroids.extend(centroid(box));
+      box.extend(references_[i].box);
+      centroids.extend(references_[i].box.center());
     }
-    bvh_.nodes.push_back(node);
+    bvh_.nodes.push_back({.bounds = box.bounds()});
 
-    const std::uint32_t middle = choose_middle(begin, end, depth, node.bounds, centroids);
+    const std::uint32_t middle = choose_middle(begin, end, depth, half_area(box), centroids);
     if (middle == end) {
       bvh_.nodes[index].right_or_first = begin;
       bvh_.nodes[index].count = end - begin;
@@ -92,57 +143,56 @@ class BinnedSahBuilder {
   }
 
   // Sorts the primitives into two parts and returns where the second starts; `end` where a leaf is better.
-  std::uint32_t choose_middle(std::uint32_t begin, std::uint32_t end, int depth, const Bounds3f& bounds,
-                              const Bounds3f& centroids) {
+  std::uint32_t choose_middle(std::uint32_t begin, std::uint32_t end, int depth, double area, const Box& centroids) {
     const std::uint32_t count = end - begin;
     if (count == 1) return end;
-    Split split;
-    if (depth < deepest_sah_split)
-      for (std::size_t axis = 0; axis < 3; ++axis) consider_axis(split, begin, end, axis, centroids);
-
-    const double area = Bounds3<double>{Vec3d(bounds.lower), Vec3d(bounds.upper)}.half_area();
+    const Binning binning(centroids, bin_count_);
+    const Split split = depth < deepest_sah_split ? find_split(begin, end, binning) : Split{};
     const bool is_split_better = split.cost + node_cost * area < count * area;
     if (count <= max_leaf_size_ && !is_split_better) return end;
-    // Coincident centroids: any half is as good as another.
+    // No bins to split between: any half is as good as another.
     if (!std::isfinite(split.cost)) return begin + count / 2;
 
-    const Binning binning(centroids, split.axis, bins_);
-    const auto first = bvh_.primitives.begin();
-    const auto middle = std::partition(first + begin, first + end, [&](std::uint32_t primitive) {
-      return binning.bin(centroid(bounds_[primitive])[split.axis]) < split.bin;
+    const auto first = references_.begin();
+    const auto middle = std::partition(first + begin, first + end, [&](const Reference& reference) {
+      return binning.bins(reference.box.center())[split.axis] < split.bin;
     });
     return static_cast<std::uint32_t>(middle - first);
   }
 
-  // Takes the best split between bins along one axis where it is better than `best`.
-  void consider_axis(Split& best, std::uint32_t begin, std::uint32_t end, std::size_t axis,
-                     const Bounds3f& centroids) const {
-    if (!(centroids.lower[axis] < centroids.upper[axis])) return;
-    const Binning binning(centroids, axis, bins_);
-    std::array<Bin, most_bins> bins;
+  // The best split between bins along any axis.
+  [[nodiscard]] Split find_split(std::uint32_t begin, std::uint32_t end, const Binning& binning) {
+    for (auto& axis_bins : bins_) std::fill_n(axis_bins.begin(), bin_count_, Bin{});
     for (std::uint32_t i = begin; i < end; ++i) {
-      const Bounds3f& box = bounds_[bvh_.primitives[i]];
-      bins[binning.bin(centroid(box)[axis])].add({box, 1});
+      const Box& box = references_[i].box;
+      const std::array<int, 3> bins = binning.bins(box.center());
+      for (std::size_t axis = 0; axis < 3; ++axis) bins_[axis][bins[axis]].add(box, 1);
     }
-    std::array<double, most_bins> right_costs;
-    std::array<std::uint32_t, most_bins> right_counts;
-    Bin right;
-    for (int i = bins_ - 1; i > 0; --i) {
-      right.add(bins[i]);
+    Split best;
+    for (std::size_t axis = 0; axis < 3; ++axis) consider_axis(best, axis);
+    return best;
+  }
+
+  // Takes the best split along one axis where it is better than `best`.
+  void consider_axis(Split& best, std::size_t axis) const {
+    const std::array<Bin, most_bins>& bins = bins_[axis];
+    std::array<double, most_bins> right_costs;  // of bin i and those above
+    Bin right, left;
+    for (int i = bin_count_ - 1; i > 0; --i) {
+      right.add(bins[i].box, bins[i].count);
       right_costs[i] = right.cost();
-      right_counts[i] = right.count;
     }
-    Bin left;
-    for (int i = 1; i < bins_; ++i) {
-      left.add(bins[i - 1]);
+    for (int i = 1; i < bin_count_; ++i) {
+      left.add(bins[i - 1].box, bins[i - 1].count);
       const double cost = left.cost() + right_costs[i];
-      if (left.count > 0 && right_counts[i] > 0 && cost < best.cost) best = {cost, axis, i};
+      if (cost < best.cost) best = {cost, axis, i};
     }
   }
 
-  std::span<const Bounds3f> bounds_;
-  int bins_;
+  std::vector<Reference> references_;
+  int bin_count_;
   std::uint32_t max_leaf_size_;
+  std::array<std::array<Bin, most_bins>, 3> bins_;  // of the node being split
   Bvh bvh_;
 };
 

@@ -110,7 +110,7 @@ using RayIndex = std::uint8_t;
 inline constexpr std::size_t batch_size = 32;
 
 // As many rays as are worth the trouble: fewer walk on alone, each in its own order.
-inline constexpr std::size_t smallest_group = 3;
+inline constexpr std::size_t smallest_group = 2;
 
 // Walks several rays through the tree together: each node is read once for all of them, and the tests of one ray don't
 // wait for those of another (a stream traversal as in Barringer and Akenine-Moller 2014, "Dynamic Ray Stream
