@@ -45,7 +45,8 @@ void IntersectionTest::shade(std::span<PixelSample> samples) {
     if (path.is_camera_ray) record_first_hit(scene_, point, samples[path.sample]);
 
     const Vec3f wo = -path.ray.direction;
-    const Bsdf bsdf = shade_at(scene_, point, wo).bsdf;
+    const SurfaceShading shading = shade_at(scene_, point, wo);
+    const Bsdf& bsdf = shading.bsdf;
     if (bsdf.has_only_deltas()) {
       const float choice = path.sampler.next_1d();
       const std::optional<BsdfSample> scattered = bsdf.sample(wo, choice, path.sampler.next_2d());
