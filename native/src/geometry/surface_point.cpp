@@ -18,11 +18,6 @@ Vec3d direction_or(Vec3d v, Vec3d otherwise) {
   return squared > 0 && std::isfinite(squared) ? v * (1 / std::sqrt(squared)) : otherwise;
 }
 
-// The derivative of n / |n|, given that of n.
-Vec3d unit_derivative(Vec3d unit, Vec3d derivative, double inverse_length) {
-  return (derivative - unit * dot(unit, derivative)) * inverse_length;
-}
-
 // Taking the point to the world, and taking it back as the origin of the next ray, both round.
 Vec3d world_error(const TransformD& object_to_world, const TransformD& world_to_object, const LocalPoint& local,
                   Vec3d position) {
@@ -30,7 +25,8 @@ Vec3d world_error(const TransformD& object_to_world, const TransformD& world_to_
   return point_error(object_to_world, local.position, local.error + error_back);
 }
 
-void set_normals(SurfacePoint& point, const TransformD& world_to_object, const LocalPoint& local) {
+void set_normals(SurfacePoint& point, const TransformD& world_to_object, const LocalPoint& local,
+                 bool has_derivatives) {
   // By the inverse transpose, which keeps the outward side outward under mirroring too.
   const Vec3d geometric = direction_or(world_to_object.transposed_vector(local.normal), {0, 0, 1});
   point.geometric_normal = point.shading_normal = Vec3f(geometric);
@@ -41,8 +37,14 @@ void set_normals(SurfacePoint& point, const TransformD& world_to_object, const L
   const Vec3d unit = shading * inverse_length;
   const double side = dot(unit, geometric) < 0 ? -1 : 1;
   point.shading_normal = Vec3f(unit * side);
-  point.dndu = Vec3f(unit_derivative(unit, world_to_object.transposed_vector(local.dndu), inverse_length) * side);
-  point.dndv = Vec3f(unit_derivative(unit, world_to_object.transposed_vector(local.dndv), inverse_length) * side);
+  if (!has_derivatives) return;
+  // The derivative of n / |n|, given that of n.
+  const auto unit_derivative = [&](Vec3d local_derivative) {
+    const Vec3d derivative = world_to_object.transposed_vector(local_derivative);
+    return Vec3f((derivative - unit * dot(unit, derivative)) * (inverse_length * side));
+  };
+  point.dndu = unit_derivative(local.dndu);
+  point.dndv = unit_derivative(local.dndv);
 }
 
 // Igehy 1999, "Tracing Ray Differentials": the neighbouring rays meet the tangent plane.
@@ -90,7 +92,7 @@ SurfacePoint make_surface_point(const Shape& shape, const TransformD& object_to_
   const Vec3d position = object_to_world.point(local.position);
   point.position = Vec3f(position);
   point.position_error = add_float_rounding(position, world_error(object_to_world, world_to_object, local, position));
-  set_normals(point, world_to_object, local);
+  set_normals(point, world_to_object, local, differentials != nullptr);
   point.uv = Vec2f(local.uv);
   point.dpdu = Vec3f(object_to_world.vector(local.dpdu));
   point.dpdv = Vec3f(object_to_world.vector(local.dpdv));

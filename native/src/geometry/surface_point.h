@@ -19,9 +19,10 @@ struct SurfacePoint {
   Vec3f shading_normal;    // unit length, on the same side as geometric_normal
   Vec2f uv;
   Vec3f dpdu, dpdv;  // change of position with uv
-  Vec3f dndu, dndv;  // change of the shading normal with uv
-  Vec3f dpdx, dpdy;  // change of position per pixel, by the ray's differentials; zero without them
-  Vec2f duvdx, duvdy;
+  // Zero without ray differentials:
+  Vec3f dndu, dndv;    // change of the shading normal with uv
+  Vec3f dpdx, dpdy;    // change of position per pixel
+  Vec2f duvdx, duvdy;  // change of uv per pixel
   std::uint32_t instance = 0, primitive = 0;
   std::uint32_t material_slot = 0;
   bool is_backfacing = false;  // the ray came from the side that geometric_normal points away from

@@ -283,7 +283,8 @@ TEST_F(SurfacePointTest, dndu_and_dndv_are_the_change_of_the_shading_normal_with
     int compared = 0;
     for (int i = 0; i < 4000; ++i) {
       const Situation s = random_situation(is_sphere, true);
-      const SurfacePoint point = s.point();
+      const RayDifferentials differentials;
+      const SurfacePoint point = s.point(&differentials);
       const auto near_by = find_neighbours(s, point, random_point(1));
       if (!near_by) continue;
       const Vec3d expected = near_by->normal_change();
