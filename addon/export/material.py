@@ -3,20 +3,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import bpy
 
 import basicrt
 
 from ..nodes import translate_surface
 from ..report import Report
-
-
-def key(b_material: bpy.types.Material) -> int:
-    """What tells materials apart. (Evaluated copies have no number of their own.)"""
-    original: Any = b_material.original
-    return int(original.session_uid)
 
 
 def convert(b_material: bpy.types.Material, report: Report) -> basicrt.Material:

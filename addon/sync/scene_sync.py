@@ -14,6 +14,7 @@ import basicrt
 
 from .. import compat
 from ..export import camera, light, material, mesh, settings, visibility, world
+from ..export.identity import uid
 from ..report import ExportError, Report
 
 # Kinds of objects that Blender would draw and BasicRT doesn't. (Curves, text and the like come as
@@ -30,11 +31,13 @@ class Export:
     """A scene, and what its user calls the things in it."""
 
     scene: basicrt.Scene = field(default_factory=basicrt.Scene)
-    shape_names: list[str] = field(default_factory=list)
+    # For each of the core's tables, what each entry is called.
+    names: dict[str, list[str]] = field(default_factory=lambda: {"shapes": [], "materials": []})
 
     def in_users_words(self, message: str) -> str:
-        """A message of the core with objects' names instead of `shapes[3]`."""
-        return re.sub(r"\bshapes\[(\d+)\]", lambda m: self.shape_names[int(m[1])], message)
+        """A message of the core with names instead of `shapes[3]` or `materials[1]`."""
+        tables = "|".join(self.names)
+        return re.sub(rf"\b({tables})\[(\d+)\]", lambda m: self.names[m[1]][int(m[2])], message)
 
 
 def export(
@@ -57,18 +60,12 @@ def export(
     return exported
 
 
-def _uid(b_object: bpy.types.Object) -> int:
-    """What tells objects apart. (Evaluated copies have no number of their own.)"""
-    original: Any = b_object.original
-    return int(original.session_uid)
-
-
 class _InstanceExport:
     """Goes over the dependency graph once; what several instances share is converted once."""
 
     def __init__(self, exported: Export, depsgraph: bpy.types.Depsgraph, report: Report) -> None:
         self._scene = exported.scene
-        self._shape_names = exported.shape_names
+        self._names = exported.names
         self._depsgraph = depsgraph
         self._report = report
         self._shapes: dict[int, int | None] = {}
@@ -137,12 +134,12 @@ class _InstanceExport:
             raise ExportError(f"{name}: {error}") from error
         if shape is None:
             return None
-        self._shape_names.append(name)
+        self._names["shapes"].append(name)
         return self._scene.shapes.append(shape)
 
     def _materials_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> list[int | None]:
         """The material of each slot; Blender's default where a slot has none."""
-        key = (_uid(b_object), mesh.key(b_mesh))
+        key = (uid(b_object), mesh.key(b_mesh))
         if key not in self._slots:
             b_view_layer: Any = self._depsgraph.view_layer_eval
             override = b_view_layer.material_override
@@ -154,9 +151,10 @@ class _InstanceExport:
         """The index of a material, None for none."""
         if b_material is None:
             return None
-        key = material.key(b_material)
+        key = uid(b_material)
         if key not in self._materials:
             converted = material.convert(b_material, self._report)
+            self._names["materials"].append(f'material "{b_material.name}"')
             self._materials[key] = self._scene.materials.append(converted)
         return self._materials[key]
 
@@ -165,7 +163,7 @@ class _InstanceExport:
     ) -> int:
         """Which rays see an instance: those that may see both the object and what instances it."""
         b_parent = b_instance.parent if b_instance.is_instance else None
-        key = (_uid(b_object), _uid(b_parent) if b_parent else 0)
+        key = (uid(b_object), uid(b_parent) if b_parent else 0)
         if key not in self._visibility:
             kinds = visibility.object_visibility(b_object)
             if b_parent is not None:

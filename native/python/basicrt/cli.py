@@ -22,6 +22,7 @@ import basicrt
 
 from .compare import compare
 from .files import check_writable
+from .images import read_combined
 
 
 class CommandError(Exception):
@@ -183,13 +184,7 @@ class _ProgressLine:
 
 
 def _compare(options: argparse.Namespace) -> int:
-    pictures = []
-    for path in (options.picture, options.reference):
-        passes = basicrt.read_exr(path)
-        if "Combined" not in passes:
-            raise CommandError(f"{path}: has no channels R, G and B")
-        pictures.append(passes["Combined"])
-    difference = compare(*pictures)
+    difference = compare(read_combined(options.picture), read_combined(options.reference))
     flip = "needs flip-evaluator" if difference.flip is None else f"{difference.flip:.6g}"
     print(f"MSE    {difference.mse:.6g}")
     print(f"relMSE {difference.relmse:.6g}")

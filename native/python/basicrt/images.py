@@ -79,6 +79,14 @@ def read_exr(path: str | os.PathLike[str]) -> dict[str, Picture]:
     }
 
 
+def read_combined(path: str | os.PathLike[str]) -> Picture:
+    """The pass Combined of a file. Raises SceneError where it has none or can't be read."""
+    pictures = read_exr(path)
+    if "Combined" not in pictures:
+        raise SceneError(f"{Path(path)}: has no channels R, G and B")
+    return pictures["Combined"]
+
+
 def write_png(path: str | os.PathLike[str], combined: npt.ArrayLike) -> None:
     """Writes Combined (premultiplied alpha) as 8-bit sRGB with straight alpha, without any view transform.
 

@@ -6,15 +6,11 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
 from . import _native
-from ._native import Scene, SceneError
-from .images import read_exr
+from ._native import Scene
+from .images import read_combined
 
 
 def load_scene(
@@ -26,11 +22,4 @@ def load_scene(
     malformed JSON with line and column, for an unknown key with the nearest valid name. Warns with SceneWarning.
     """
     text = override if isinstance(override, str) else json.dumps(override) if override else ""
-    return _native.load_scene(path, text, _read_texture)
-
-
-def _read_texture(path: str | os.PathLike[str]) -> npt.NDArray[np.float32]:
-    pictures = read_exr(path)
-    if "Combined" not in pictures:
-        raise SceneError(f"{Path(path)}: has no channels R, G and B")
-    return pictures["Combined"]
+    return _native.load_scene(path, text, read_combined)

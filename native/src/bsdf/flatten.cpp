@@ -18,9 +18,7 @@ struct Target {
   float cos_theta;  // between the viewer and the shading normal on his side, at least 0
   SurfaceShading& shading;
 
-  [[nodiscard]] Color eval(const ColorInput& input) const {
-    return input.texture.is_valid() ? eval_texture(textures[input.texture], point.uv) : input.constant;
-  }
+  [[nodiscard]] Color eval(const ColorInput& input) const { return eval_color(input, textures, point.uv); }
   // The index beyond the surface over that on the viewer's side.
   [[nodiscard]] float relative_ior(float ior) const { return is_back ? 1 / ior : ior; }
 };

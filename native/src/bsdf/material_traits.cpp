@@ -12,10 +12,7 @@ namespace basicrt {
 Color transparency(const Material& material, const Table<Texture>& textures, const SurfacePoint& point, Vec3f /*wo*/) {
   Color sum(0.0f);
   const Overloaded leaf{
-      [&](const TransparentShader& node, float weight) {
-        const ColorInput& color = node.color;
-        sum += (color.texture.is_valid() ? eval_texture(textures[color.texture], point.uv) : color.constant) * weight;
-      },
+      [&](const TransparentShader& node, float weight) { sum += eval_color(node.color, textures, point.uv) * weight; },
       [&](const PrincipledShader& node, float weight) { sum += Color((1 - node.alpha) * weight); },
       [](const auto& /*opaque*/, float) {}};
   for_each_leaf(material, leaf);

@@ -5,9 +5,14 @@
 #include <concepts>
 #include <variant>
 
+#include "base/table.h"
 #include "shading/material.h"
 
 namespace basicrt {
+
+inline Color eval_color(const ColorInput& input, const Table<Texture>& textures, Vec2f uv) {
+  return input.texture.is_valid() ? eval_texture(textures[input.texture], uv) : input.constant;
+}
 
 // Calls visit(node, weight) for each way from `index` to a node that is neither Mix nor Add, with the product of the
 // shares on the way. lobe_count() bounds how many there are.

@@ -11,6 +11,7 @@
 #include "bvh/walk.h"
 #include "geometry/precise_ray.h"
 #include "geometry/sphere.h"
+#include "math/next_float.h"
 
 namespace basicrt {
 namespace {
@@ -80,8 +81,8 @@ Bounds3f world_bounds(const Bounds3f& local, const TracedInstance& instance) {
         margin[i] += std::abs(instance.object_to_world.rows[i][j] * instance.world_to_object.rows[j][k]) * reach[k];
   for (std::size_t i = 0; i < 3; ++i) {
     const double padding = margin[i] * 16 * std::numeric_limits<double>::epsilon();
-    result.lower[i] = std::nextafter(static_cast<float>(box.lower[i] - padding), -infinity);
-    result.upper[i] = std::nextafter(static_cast<float>(box.upper[i] + padding), infinity);
+    result.lower[i] = next_float_down(static_cast<float>(box.lower[i] - padding));
+    result.upper[i] = next_float_up(static_cast<float>(box.upper[i] + padding));
   }
   return result;
 }

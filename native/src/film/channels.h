@@ -10,24 +10,17 @@ namespace basicrt {
 
 enum class Pass : std::uint8_t { combined, depth, normal };
 
-// How a pixel's samples become its value.
-enum class PassFilter : std::uint8_t {
-  average,  // weighted by the pixel filter
-  first,    // the pixel's first sample that hits; averaging a depth would make one up
-};
-
 struct PassInfo {
   Pass pass;
   std::string_view name;      // Blender's, and that of the EXR layer
   std::string_view channels;  // one letter for each
-  PassFilter filter;
-  float background;  // where no sample hits anything
+  float background;           // where no sample hits anything
 };
 
 inline constexpr std::array passes = {
-    PassInfo{Pass::combined, "Combined", "RGBA", PassFilter::average, 0},
-    PassInfo{Pass::depth, "Depth", "Z", PassFilter::first, 1e10f},
-    PassInfo{Pass::normal, "Normal", "XYZ", PassFilter::average, 0},
+    PassInfo{Pass::combined, "Combined", "RGBA", 0},
+    PassInfo{Pass::depth, "Depth", "Z", 1e10f},
+    PassInfo{Pass::normal, "Normal", "XYZ", 0},
 };
 static_assert([] {
   for (std::size_t i = 0; i < passes.size(); ++i)

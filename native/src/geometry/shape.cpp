@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/overloaded.h"
-#include "math/constants.h"
+#include "math/next_float.h"
 
 namespace basicrt {
 namespace {
@@ -16,8 +16,8 @@ Bounds3f bounds_of(const Sphere& sphere) {
   Bounds3f result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // One float wider: center +- radius was rounded.
-    result.lower[axis] = std::nextafter(sphere.center[axis] - sphere.radius, -infinity);
-    result.upper[axis] = std::nextafter(sphere.center[axis] + sphere.radius, infinity);
+    result.lower[axis] = next_float_down(sphere.center[axis] - sphere.radius);
+    result.upper[axis] = next_float_up(sphere.center[axis] + sphere.radius);
   }
   return result;
 }
@@ -35,6 +35,11 @@ Bounds3f bounds(const Shape& shape) {
   return std::visit(
       Overloaded{[](const Mesh& mesh) { return bounds(mesh); }, [](const Sphere& sphere) { return bounds_of(sphere); }},
       shape);
+}
+
+bool is_empty(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return mesh && mesh->triangles.empty();
 }
 
 void validate(const Shape& shape, std::string_view item) {

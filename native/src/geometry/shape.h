@@ -25,6 +25,7 @@ struct Sphere {
 using Shape = std::variant<Mesh, Sphere>;
 
 [[nodiscard]] Bounds3f bounds(const Shape& shape);
+[[nodiscard]] bool is_empty(const Shape& shape);  // a mesh without triangles: nothing can hit it
 void validate(const Shape& shape, std::string_view item);
 
 }  // namespace basicrt

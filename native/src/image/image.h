@@ -20,6 +20,5 @@ struct Image {
 
 // The sRGB curve (IEC 61966-2-1), exact, for values in [0, 1] and continued linearly below.
 [[nodiscard]] float srgb_to_linear(float encoded);
-[[nodiscard]] float linear_to_srgb(float linear);
 
 }  // namespace basicrt

@@ -31,7 +31,7 @@ inline void record_first_hit(const PreparedScene& scene, const SurfacePoint& poi
   return {.origin = offset_origin(point, direction), .direction = direction, .kinds = kinds, .time = time};
 }
 
-// A ray from the surface that ends just before `target`.
+// A ray from the surface that ends just before what is `distance` away.
 [[nodiscard]] inline Ray spawn_shadow_ray(const SurfacePoint& point, Vec3f direction, float distance, float time) {
   Ray ray = spawn_ray(point, direction, ray_shadow, time);
   ray.t_max = distance * (1 - 1e-4f);

@@ -2,6 +2,7 @@
 // One-point-light direct lighting behind perfect refraction, a batch at a time.
 #include "integrator/intersection_test.h"
 
+#include "integrator/batch.h"
 #include "integrator/hit_shading.h"
 #include "math/constants.h"
 
@@ -27,12 +28,7 @@ void IntersectionTest::begin(std::span<const CameraPath> paths, std::span<PixelS
   }
 }
 
-void IntersectionTest::extend() {
-  rays_.clear();
-  for (const Path& path : paths_) rays_.push_back(path.ray);
-  hits_.resize(rays_.size());
-  scene_.tracer.intersect(rays_, hits_);
-}
+void IntersectionTest::extend() { find_hits(scene_.tracer, paths_, rays_, hits_); }
 
 void IntersectionTest::shade(std::span<PixelSample> samples) {
   const RenderSettings& settings = scene_.settings;
@@ -72,10 +68,7 @@ void IntersectionTest::shade(std::span<PixelSample> samples) {
 }
 
 void IntersectionTest::connect(std::span<PixelSample> samples) {
-  occluded_.resize(shadow_rays_.size());
-  scene_.tracer.occluded(shadow_rays_, occluded_);
-  for (std::size_t i = 0; i < shadow_tests_.size(); ++i)
-    if (!occluded_[i]) samples[shadow_tests_[i].sample].radiance += shadow_tests_[i].radiance;
+  add_unoccluded(scene_.tracer, shadow_rays_, shadow_tests_, occluded_, samples);
 }
 
 }  // namespace basicrt

@@ -3,9 +3,10 @@
 #include "integrator/path.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "integrator/batch.h"
 #include "integrator/hit_shading.h"
+#include "math/next_float.h"
 
 namespace basicrt {
 namespace {
@@ -32,7 +33,7 @@ std::uint32_t ray_kind(ScatterKind kind) {
 
 // The ray goes on behind a hit. Its origin stays, so that densities are still measured from where it was scattered, and
 // the same triangle gives the same t again, which is now out of range.
-void continue_behind(Ray& ray, float t) { ray.t_min = std::nextafter(t, infinity); }
+void continue_behind(Ray& ray, float t) { ray.t_min = next_float_up(t); }
 
 }  // namespace
 
@@ -54,12 +55,7 @@ void PathIntegrator::begin(std::span<const CameraPath> paths, std::span<PixelSam
   }
 }
 
-void PathIntegrator::extend() {
-  rays_.clear();
-  for (const Path& path : paths_) rays_.push_back(path.ray);
-  hits_.resize(rays_.size());
-  scene_.tracer.intersect(rays_, hits_);
-}
+void PathIntegrator::extend() { find_hits(scene_.tracer, paths_, rays_, hits_); }
 
 void PathIntegrator::shade(std::span<PixelSample> samples) {
   next_paths_.clear();
@@ -183,10 +179,7 @@ bool PathIntegrator::survives_roulette(Path& path) const {
 
 void PathIntegrator::connect(std::span<PixelSample> samples) {
   if (scene_.has_transparency) return connect_through_transparency(samples);
-  occluded_.resize(shadow_rays_.size());
-  scene_.tracer.occluded(shadow_rays_, occluded_);
-  for (std::size_t i = 0; i < connections_.size(); ++i)
-    if (!occluded_[i]) samples[connections_[i].sample].radiance += connections_[i].radiance;
+  add_unoccluded(scene_.tracer, shadow_rays_, connections_, occluded_, samples);
 }
 
 // Advances all shadow rays together from surface to surface, dimmed by each, until they arrive or are black.

@@ -2,7 +2,6 @@
 // Objects: shapes placed in the world, with materials and, for the assignment's area lights, emission.
 #include <array>
 #include <span>
-#include <variant>
 
 #include "io/described_json.h"
 #include "io/ray_kinds.h"
@@ -15,11 +14,6 @@ namespace {
 constexpr std::array<std::string_view, 8> shape_object_keys = {"shape",     "name",      "material_name", "materials",
                                                                "transform", "translate", "light",         "visibility"};
 constexpr auto object_keys = std::span(shape_object_keys).subspan(1);
-
-bool is_empty(const Shape& shape) {
-  const Mesh* mesh = std::get_if<Mesh>(&shape);
-  return mesh && mesh->triangles.empty();
-}
 
 Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
   const auto name = object.find("shape");

@@ -61,6 +61,8 @@ struct Session::State {
         tiles(make_tiles(rect, options.tile_size)),
         sample_count(static_cast<std::uint64_t>(rect.width) * rect.height * scene.settings.samples) {}
 
+  // With the mutex held.
+  [[nodiscard]] bool is_done() const { return stop || tiles_handed_out == tiles.size(); }
   void work();
   std::optional<Tile> render_tile(const PixelRect& tile, Integrator& integrator);
 };
@@ -136,9 +138,7 @@ Session::~Session() { stop(); }
 
 std::optional<Tile> Session::next_tile(std::chrono::duration<double> timeout) {
   std::unique_lock lock(state_->mutex);
-  const auto is_ready = [&] {
-    return state_->stop || !state_->finished.empty() || state_->tiles_handed_out == state_->tiles.size();
-  };
+  const auto is_ready = [&] { return state_->is_done() || !state_->finished.empty(); };
   state_->changed.wait_for(lock, timeout, is_ready);
   if (state_->error) std::rethrow_exception(state_->error);
   if (state_->stop || state_->finished.empty()) return std::nullopt;
@@ -151,7 +151,7 @@ std::optional<Tile> Session::next_tile(std::chrono::duration<double> timeout) {
 
 bool Session::is_done() const {
   const std::lock_guard lock(state_->mutex);
-  return state_->stop || state_->tiles_handed_out == state_->tiles.size();
+  return state_->is_done();
 }
 
 void Session::stop() {
@@ -174,7 +174,7 @@ Progress Session::progress() const {
   if (progress.elapsed_seconds > 0) progress.samples_per_second = static_cast<double>(done) / progress.elapsed_seconds;
   if (progress.samples_per_second > 0)
     progress.remaining_seconds = static_cast<double>(state_->sample_count - done) / progress.samples_per_second;
-  progress.is_done = state_->stop || state_->tiles_handed_out == state_->tiles.size();
+  progress.is_done = state_->is_done();
   return progress;
 }
 

@@ -52,11 +52,6 @@ std::vector<ShapeTree> prepare_shapes(const Scene& scene, Report& report, Prepar
   return trees;
 }
 
-bool is_empty(const Shape& shape) {
-  const auto* mesh = std::get_if<Mesh>(&shape);
-  return mesh && mesh->triangles.empty();
-}
-
 Material default_material() {
   Material material;
   material.name = "default";

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The steps of extend and connect that are the same for every integrator: a whole batch goes to the tracer at once.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bvh/tracer.h"
+#include "film/film.h"
+
+namespace basicrt {
+
+// The next hit of each path's `ray`. `rays` is room to gather them in.
+template <class Path>
+void find_hits(const Tracer& tracer, const std::vector<Path>& paths, std::vector<Ray>& rays, std::vector<Hit>& hits) {
+  rays.clear();
+  for (const Path& path : paths) rays.push_back(path.ray);
+  hits.resize(rays.size());
+  tracer.intersect(rays, hits);
+}
+
+// Adds each connection's `radiance` to its `sample` unless something is in its shadow ray's way. `occluded` is room
+// for the tracer's answers.
+template <class Connection>
+void add_unoccluded(const Tracer& tracer, const std::vector<Ray>& shadow_rays,
+                    const std::vector<Connection>& connections, std::vector<std::uint8_t>& occluded,
+                    std::span<PixelSample> samples) {
+  occluded.resize(shadow_rays.size());
+  tracer.occluded(shadow_rays, occluded);
+  for (std::size_t i = 0; i < connections.size(); ++i)
+    if (!occluded[i]) samples[connections[i].sample].radiance += connections[i].radiance;
+}
+
+}  // namespace basicrt
