@@ -12,7 +12,7 @@ import bpy
 
 from .. import compat
 from ..properties import settings_of
-from ..report import Report, caught, show_warnings, summary
+from ..report import ExportError, Report, caught, show_warnings, summary
 from .result import ResultWriter, complete_without_pixels
 
 if TYPE_CHECKING:
@@ -138,11 +138,14 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.update_stats("", "Building trees")
         with warnings.catch_warnings(record=True) as caught_warnings:
             warnings.simplefilter("always", basicrt.SceneWarning)
-            session = basicrt.Session(
-                exported.scene,
-                threads=b_scene.render.threads,
-                tile_size=settings_of(b_scene).tile_size,
-            )
+            try:
+                session = basicrt.Session(
+                    exported.scene,
+                    threads=b_scene.render.threads,
+                    tile_size=settings_of(b_scene).tile_size,
+                )
+            except basicrt.SceneError as error:
+                raise ExportError(exported.in_users_words(str(error))) from error
         for warning in caught_warnings:
             self.warnings.add(exported.in_users_words(str(warning.message)))
         show_warnings(self.warnings)

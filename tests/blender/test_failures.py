@@ -16,7 +16,9 @@ from support.blender import (
     add_camera,
     add_lamp,
     add_mesh,
+    add_node,
     add_plane,
+    empty_material,
     new_material,
     new_scene,
     render,
@@ -52,6 +54,20 @@ def test_vertex_that_is_not_a_number(picture: Path) -> None:
     made = add_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], name="Broken")
     made.data.attributes["position"].data[1].vector = (0, float("nan"), 0)
     assert 'object "Broken": positions[1, 1]: must be a finite number' in fail_to_render()
+
+
+def test_material_of_more_shaders_than_can_be_rendered(picture: Path) -> None:
+    add_camera()
+    material, tree, output = empty_material("Crowd")
+    sum_ = add_node(tree, "ShaderNodeBsdfDiffuse")
+    for _ in range(16):
+        added = tree.nodes.new("ShaderNodeAddShader")
+        tree.links.new(sum_.outputs[0], added.inputs[0])
+        tree.links.new(add_node(tree, "ShaderNodeBsdfDiffuse").outputs[0], added.inputs[1])
+        sum_ = added
+    tree.links.new(sum_.outputs[0], output.inputs["Surface"])
+    add_plane(material=material)
+    assert 'material "Crowd": combines more shaders than can be rendered' in fail_to_render()
 
 
 def test_native_module_missing(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/validate_fields.h"
+#include "bsdf/bsdf.h"
 #include "scene/scene.h"
 
 namespace basicrt {
@@ -94,6 +95,9 @@ void validate_materials(const Scene& scene) {
     if (material.surface != no_node && material.surface >= material.nodes.size())
       throw SceneError(item + ".surface", "node " + std::to_string(material.surface) + ", but the material has " +
                                               std::to_string(material.nodes.size()) + " nodes");
+    if (const int lobes = lobe_count(material); lobes > Bsdf::max_lobes)
+      throw SceneError(item, "combines more shaders than can be rendered: its graph makes " + std::to_string(lobes) +
+                                 " lobes, but at most " + std::to_string(Bsdf::max_lobes) + " are allowed");
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bsdf/bsdf.h"
 #include "error_of.h"
 #include "scene/scene.h"
 
@@ -79,6 +80,21 @@ TEST(Validate, nodes_refer_backwards) {
   EXPECT_EQ(problem_of_material({.name = "", .nodes = {DiffuseShader{}}, .surface = 1}),
             "materials[1].surface: node 1, but the material has 1 nodes");
   EXPECT_EQ(problem_of_material({.name = "", .nodes = {MixShader{}}, .surface = 0}), "");
+}
+
+// Shading has room for so many lobes and no more: one more would be written past its end.
+TEST(Validate, a_material_makes_no_more_lobes_than_shading_has_room_for) {
+  Material material;
+  NodeIndex sum = material.add(DiffuseShader{});
+  for (int lobes = 2; lobes <= Bsdf::max_lobes; ++lobes)
+    sum = material.add(AddShader{.first = sum, .second = material.add(DiffuseShader{})});
+  material.surface = sum;
+  EXPECT_EQ(problem_of_material(material), "");
+  material.surface = material.add(AddShader{.first = sum, .second = 0});
+  const std::string most = std::to_string(Bsdf::max_lobes), more = std::to_string(Bsdf::max_lobes + 1);
+  EXPECT_EQ(problem_of_material(material),
+            "materials[1]: combines more shaders than can be rendered: its graph makes " + more +
+                " lobes, but at most " + most + " are allowed");
 }
 
 TEST(Validate, numbers_are_finite_and_in_range) {
