@@ -37,7 +37,8 @@ std::string default_text(const py::object& value) {
   const std::string text = to_text(value);
   try {
     py::module_::import("ast").attr("literal_eval")(text);
-  } catch (const py::error_already_set&) {
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_SyntaxError)) throw;
     return "...";
   }
   return text;

@@ -15,11 +15,18 @@ namespace py = pybind11;
 
 namespace {
 
+// After a conversion that failed: forgets why, unless that was something else, such as an interrupt.
+void clear_conversion_error() {
+  for (PyObject* kind : {PyExc_TypeError, PyExc_ValueError, PyExc_OverflowError})
+    if (PyErr_ExceptionMatches(kind)) return PyErr_Clear();
+  throw py::error_already_set();
+}
+
 // A number from anything with __float__ or __index__ (numpy's scalars among them), or nothing.
 std::optional<double> to_double(py::handle value) {
   const double number = PyFloat_AsDouble(value.ptr());
   if (number != -1.0 || !PyErr_Occurred()) return number;
-  PyErr_Clear();
+  clear_conversion_error();
   return std::nullopt;
 }
 
@@ -27,7 +34,7 @@ std::optional<double> to_double(py::handle value) {
 std::optional<std::int64_t> to_integer(py::handle value) {
   const py::object integer = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   if (!integer) {
-    PyErr_Clear();
+    clear_conversion_error();
     return std::nullopt;
   }
   int overflow = 0;
@@ -41,7 +48,7 @@ template <std::size_t size>
 std::array<float, size> read_numbers(py::handle value, const std::string& item, const char* rule) {
   const auto elements = py::reinterpret_steal<py::object>(PySequence_Fast(value.ptr(), ""));
   if (!elements) {
-    PyErr_Clear();
+    clear_conversion_error();
     refuse_type(item, rule, value);
   }
   std::array<float, size> numbers{};

@@ -22,6 +22,11 @@ def run(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProc
     return subprocess.run(command, capture_output=True, text=True, check=False, cwd=cwd)
 
 
+def thread_count(process: int) -> int:
+    status = Path(f"/proc/{process}/status").read_text()
+    return int(re.search(r"Threads:\s*(\d+)", status)[1])  # type: ignore[index]
+
+
 def names(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
@@ -125,12 +130,14 @@ def test_wrong_usage_is_status_2(arguments: list[str]) -> None:
 def test_an_interrupt_leaves_no_file(tmp_path: Path) -> None:
     scene = tmp_path / "scene.json"
     endless().save(scene)
-    command = [sys.executable, "-m", "basicrt", "render", str(scene), "-o", str(tmp_path / "o.exr")]
+    threads = 40  # more than anything else starts: with them it is rendering
+    arguments = [scene, "-o", tmp_path / "o.exr", "--threads", threads]
+    command = [sys.executable, "-m", "basicrt", "render", *map(str, arguments)]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    time.sleep(2)
-    assert process.poll() is None
+    while process.poll() is None and thread_count(process.pid) < threads:
+        time.sleep(0.05)
     process.send_signal(signal.SIGINT)
-    _, message = process.communicate(timeout=20)
+    _, message = process.communicate(timeout=60)
     assert process.returncode == 130
     assert message == "basicrt: interrupted\n"
     assert names(tmp_path) == ["scene.json"]

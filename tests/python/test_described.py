@@ -143,6 +143,17 @@ def test_values_of_another_type_are_type_errors(make, message: str) -> None:
         make()
 
 
+def test_what_a_number_raises_itself_is_not_hidden() -> None:
+    class Broken:
+        def __float__(self) -> float:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        basicrt.PointLight(radius=Broken())
+    with pytest.raises(KeyboardInterrupt):
+        basicrt.PointLight((0, 0, Broken()))
+
+
 def test_a_refused_value_leaves_the_old_one() -> None:
     light = basicrt.PointLight(radius=0.5)
     with pytest.raises(SceneError):

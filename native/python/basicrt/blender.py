@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import importlib
 import os
+import signal
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -61,7 +63,8 @@ def render_blend(
 
 def _import_bpy() -> Any:
     try:
-        bpy = importlib.import_module("bpy")
+        with _deferred_interrupts():
+            bpy = importlib.import_module("bpy")
     except ImportError as error:
         raise BlenderError(
             f"a .blend needs Blender as a Python module: pip install basicrt[blender] ({error})"
@@ -69,6 +72,22 @@ def _import_bpy() -> Any:
     if not hasattr(bpy, "app"):
         raise BlenderError("the installed bpy has types only: pip install bpy")
     return bpy
+
+
+@contextmanager
+def _deferred_interrupts() -> Iterator[None]:
+    """Ctrl-C waits: in the middle of its import it would crash Blender."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    interrupts: list[int] = []
+    previous = signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, previous)
+    if interrupts:
+        raise KeyboardInterrupt
 
 
 @contextmanager
