@@ -33,7 +33,7 @@ def diffuse(view: NodeView) -> NodeIndex:
 @shader("ShaderNodeBsdfAnisotropic")  # the Glossy BSDF's name inside Blender
 def glossy(view: NodeView) -> NodeIndex:
     """A tinted mirror, rough by microfacets."""
-    view.ignore(Anisotropy=0.0, Normal=None, Tangent=None)
+    view.ignore(Anisotropy=0.0, Normal=None)
     return view.add(
         basicrt.GlossyShader(
             color=view.color("Color"),

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import bpy
@@ -110,9 +111,12 @@ class BASICRT_RENDER_PT_warnings(_Panel, bpy.types.Panel):
 
     def draw(self, context: Any) -> None:
         """Blender's callback."""
-        column = self.layout.column(align=True)
+        # A label is one line, cut in its middle where it is too long; a letter is 7 pixels wide.
+        width = context.region.width / (7 * context.preferences.system.ui_scale) - 8
         for text in shown_warnings():
-            column.label(text=text, icon="ERROR")
+            column = self.layout.column(align=True)
+            for index, line in enumerate(textwrap.wrap(text, max(int(width), 20))):
+                column.label(text=line, icon="BLANK1" if index else "ERROR")
 
 
 class BASICRT_VIEWLAYER_PT_passes(_Panel, bpy.types.Panel):

@@ -29,9 +29,9 @@ def build(scene: bpy.types.Scene) -> None:
     build_disc(tinted)
 
     light = stage.lamp(
-        "AREA", "Ceiling Lamp", (0, 0, HEIGHT - 0.01), (0, 0, 0), 26.0, shape="RECTANGLE", size=0.6
+        "AREA", "Ceiling Lamp", (0, 0, HEIGHT - 0.01), (0, 0, 0), 27.0, shape="RECTANGLE"
     )
-    light.data.size_y = 0.5
+    light.data.size, light.data.size_y = 0.8, 0.7
     light.data.color = (1.0, 0.9, 0.75)
     light.visible_camera = True
 

@@ -76,7 +76,7 @@ def build(scene: bpy.types.Scene) -> None:
     build_floor()
     stage.lamp("AREA", "Key", (-3, -3, 5), (40, 0, -40), 300.0, shape="SQUARE", size=2.0)
     stage.set_world((0.75, 0.85, 1.0), 0.5)
-    stage.camera((0, -9, 4.2), (0, 0.6, 0.35), lens=58.0)
+    stage.camera((0, -9, 4.2), (0, 0.6, 0.35), lens=49.0)
     stage.set_picture(scene, 640, 320, samples=128)
 
 
