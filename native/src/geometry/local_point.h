@@ -11,6 +11,7 @@
 namespace basicrt {
 
 struct LocalPoint {
+  double t;  // along the ray, solved again
   Vec3d position;
   Vec3d error;           // bounds how far each coordinate is off, and how far off the surface rays are found to start
   Vec3d normal;          // out of the front face, of any length

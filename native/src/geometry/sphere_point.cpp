@@ -23,6 +23,7 @@ LocalPoint local_point_on_sphere(const Sphere& sphere, const PreciseRay& ray, co
   // Put back onto the sphere, which takes out nearly all of the error in t.
   const Vec3d outward = normalize(ray.origin + ray.direction * t - center);
   LocalPoint point;
+  point.t = t;
   point.position = center + outward * radius;
   point.normal = point.shading_normal = outward;
 

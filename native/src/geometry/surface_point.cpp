@@ -89,6 +89,7 @@ SurfacePoint make_surface_point(const Shape& shape, const TransformD& object_to_
                  shape);
 
   SurfacePoint point;
+  point.t = static_cast<float>(local.t);
   const Vec3d position = object_to_world.point(local.position);
   point.position = Vec3f(position);
   point.position_error = add_float_rounding(position, world_error(object_to_world, world_to_object, local, position));
@@ -97,11 +98,11 @@ SurfacePoint make_surface_point(const Shape& shape, const TransformD& object_to_
   point.dpdu = Vec3f(object_to_world.vector(local.dpdu));
   point.dpdv = Vec3f(object_to_world.vector(local.dpdv));
   point.instance = hit.instance;
-  point.primitive = hit.primitive;
+  point.primitive = std::holds_alternative<Mesh>(shape) ? hit.primitive : Hit::none;
   point.material_slot = local.material_slot;
   point.is_backfacing = dot(local_ray.direction, local.normal) > 0;
   if (differentials) {
-    set_position_change(point, ray, hit.t, *differentials);
+    set_position_change(point, ray, local.t, *differentials);
     set_uv_change(point);
   }
   return point;

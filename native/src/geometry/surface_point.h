@@ -23,12 +23,15 @@ struct SurfacePoint {
   Vec3f dndu, dndv;    // change of the shading normal with uv
   Vec3f dpdx, dpdy;    // change of position per pixel
   Vec2f duvdx, duvdy;  // change of uv per pixel
-  std::uint32_t instance = 0, primitive = 0;
+  float t = 0;         // distance along the ray, solved in double precision
+  std::uint32_t instance = 0;
+  std::uint32_t primitive = 0;  // the triangle; Hit::none on a sphere
   std::uint32_t material_slot = 0;
   bool is_backfacing = false;  // the ray came from the side that geometric_normal points away from
 };
 
-// The hit solved again from the vertices in double precision.
+// The hit solved again from the vertices in double precision, but never outside the triangle that the tracer found:
+// where its rounding took the ray inside, the point is on the edge.
 [[nodiscard]] SurfacePoint make_surface_point(const Shape& shape, const TransformD& object_to_world,
                                               const TransformD& world_to_object, const Ray& ray, const Hit& hit,
                                               const RayDifferentials* differentials = nullptr);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surface points on a mesh's triangles.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -16,12 +17,12 @@ Vec3d interpolate(const Corners& corners, const std::array<double, 3>& weights) 
   return corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
 }
 
-// By the hit where the line of the ray doesn't say.
-std::array<double, 3> barycentric(const TriangleHit& exact, const Hit& hit) {
-  const bool is_usable = std::isfinite(exact.u) && std::isfinite(exact.v);
-  const double u = is_usable ? exact.u : static_cast<double>(hit.u);
-  const double v = is_usable ? exact.v : static_cast<double>(hit.v);
-  return {1 - u - v, u, v};
+// By the hit where the line of the ray doesn't say, and inside the triangle.
+TriangleHit solve_again(const TriangleHit& exact, const Hit& hit) {
+  const bool is_usable = std::isfinite(exact.t) && std::isfinite(exact.u) && std::isfinite(exact.v);
+  const TriangleHit solved = is_usable ? exact : TriangleHit{hit.t, hit.u, hit.v};
+  const double u = std::clamp(solved.u, 0.0, 1.0);
+  return {solved.t, u, std::clamp(solved.v, 0.0, 1 - u)};
 }
 
 // At least the length of v, without a root.
@@ -73,7 +74,8 @@ LocalPoint local_point_on_triangle(const Mesh& mesh, const PreciseRay& ray, cons
   const std::size_t first_corner = 3 * std::size_t{triangle};
   const Vec3f p0 = mesh.position(triangle, 0), p1 = mesh.position(triangle, 1), p2 = mesh.position(triangle, 2);
   const Corners positions{Vec3d(p0), Vec3d(p1), Vec3d(p2)};
-  const auto weights = barycentric(intersect_triangle_plane(ray, p0, p1, p2), hit);
+  const TriangleHit solved = solve_again(intersect_triangle_plane(ray, p0, p1, p2), hit);
+  const std::array weights{1 - solved.u - solved.v, solved.u, solved.v};
   const Vec3d position = interpolate(positions, weights);
 
   // Without texture coordinates, or where they are all on a line, the barycentrics parametrise the triangle.
@@ -94,7 +96,8 @@ LocalPoint local_point_on_triangle(const Mesh& mesh, const PreciseRay& ray, cons
     shading_normal = interpolate(normals, weights);
     normal_change = edges.derivatives(normals);
   }
-  return {.position = position,
+  return {.t = solved.t,
+          .position = position,
           .error = position_error(positions, weights, position, ray),
           .normal = cross(positions[1] - positions[0], positions[2] - positions[0]),
           .shading_normal = shading_normal,

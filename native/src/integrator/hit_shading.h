@@ -2,8 +2,11 @@
 // What every integrator does with a hit: the surface there, and its material's answer.
 #pragma once
 
+#include <algorithm>
+
 #include "bsdf/bsdf.h"
 #include "geometry/surface_point.h"
+#include "math/next_float.h"
 #include "scene/prepare.h"
 
 namespace basicrt {
@@ -26,9 +29,17 @@ inline void record_first_hit(const PreparedScene& scene, const SurfacePoint& poi
   sample.normal = point.is_backfacing ? -point.shading_normal : point.shading_normal;
 }
 
+// Names the triangle that a ray starts on. A sphere isn't named: a ray may well hit it again.
+inline void set_start(Ray& ray, const SurfacePoint& point) {
+  ray.from_instance = point.primitive == Hit::none ? Hit::none : point.instance;
+  ray.from_primitive = point.primitive;
+}
+
 // A ray that leaves the surface, free of hitting it again.
 [[nodiscard]] inline Ray spawn_ray(const SurfacePoint& point, Vec3f direction, std::uint32_t kinds, float time) {
-  return {.origin = offset_origin(point, direction), .direction = direction, .kinds = kinds, .time = time};
+  Ray ray{.origin = offset_origin(point, direction), .direction = direction, .kinds = kinds, .time = time};
+  set_start(ray, point);
+  return ray;
 }
 
 // A ray from the surface that ends just before what is `distance` away.
@@ -36,6 +47,13 @@ inline void record_first_hit(const PreparedScene& scene, const SurfacePoint& poi
   Ray ray = spawn_ray(point, direction, ray_shadow, time);
   ray.t_max = distance * (1 - 1e-4f);
   return ray;
+}
+
+// Takes the ray on behind a hit. Its origin stays, so that densities are still measured from where it was scattered. The
+// tracer's own distance is what it will compare others with: each round begins behind all that the last one found.
+inline void continue_behind(Ray& ray, const Hit& hit, const SurfacePoint& point) {
+  ray.t_min = next_float_up(std::max(ray.t_min, hit.t));
+  set_start(ray, point);
 }
 
 }  // namespace basicrt

@@ -6,7 +6,6 @@
 
 #include "integrator/batch.h"
 #include "integrator/hit_shading.h"
-#include "math/next_float.h"
 
 namespace basicrt {
 namespace {
@@ -30,10 +29,6 @@ std::uint32_t ray_kind(ScatterKind kind) {
   }
   return 0;
 }
-
-// The ray goes on behind a hit. Its origin stays, so that densities are still measured from where it was scattered, and
-// the same triangle gives the same t again, which is now out of range.
-void continue_behind(Ray& ray, float t) { ray.t_min = next_float_up(t); }
 
 }  // namespace
 
@@ -66,8 +61,8 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     const Hit& hit = hits_[i];
     PixelSample& sample = samples[path.sample];
 
-    gather_lamps(path, hit.is_hit() ? hit.t : path.ray.t_max, sample);
     if (!hit.is_hit()) {
+      gather_lamps(path, path.ray.t_max, sample);
       gather_environment(path, sample);
       continue;
     }
@@ -75,13 +70,14 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     const RayDifferentials* differentials =
         path.is_camera_ray ? &camera_paths_[path.sample].camera_ray.differentials : nullptr;
     const SurfacePoint point = surface_point_at(scene_, path.ray, hit, differentials);
+    gather_lamps(path, point.t, sample);
     if (path.is_camera_ray && !sample.has_hit) record_first_hit(scene_, point, sample);
 
     const SurfaceShading shading = shade_at(scene_, point, -path.ray.direction);
     gather_emission(path, point, shading.emission, sample);
     if (shading.bsdf.is_empty()) continue;
     if (!path.is_last) sample_lights(path, point, shading.bsdf);
-    if (scatter(path, point, shading.bsdf, hit.t)) next_paths_.push_back(path);
+    if (scatter(path, hit, point, shading.bsdf)) next_paths_.push_back(path);
   }
   paths_.swap(next_paths_);
 }
@@ -127,7 +123,7 @@ void PathIntegrator::sample_lights(Path& path, const SurfacePoint& point, const 
 }
 
 // Sends the path on in a sampled direction. False where it ends.
-bool PathIntegrator::scatter(Path& path, const SurfacePoint& point, const Bsdf& bsdf, float hit_t) const {
+bool PathIntegrator::scatter(Path& path, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const {
   const float choice = path.sampler.next_1d();
   const std::optional<BsdfSample> scattered = bsdf.sample(-path.ray.direction, choice, path.sampler.next_2d());
   if (!scattered || (path.is_last && scattered->kind != ScatterKind::transparent)) return false;
@@ -135,7 +131,7 @@ bool PathIntegrator::scatter(Path& path, const SurfacePoint& point, const Bsdf& 
   if (is_black(path.throughput) || !count_bounce(path, scattered->kind)) return false;
 
   if (scattered->kind == ScatterKind::transparent) {
-    continue_behind(path.ray, hit_t);
+    continue_behind(path.ray, hit, point);
     return true;
   }
   path.ray = spawn_ray(point, scattered->wi, ray_kind(scattered->kind), path.ray.time);
@@ -199,7 +195,7 @@ void PathIntegrator::connect_through_transparency(std::span<PixelSample> samples
       const SurfacePoint point = surface_point_at(scene_, ray, hits_[i]);
       connection.radiance *= transparency(scene_.material_of(point), scene_.textures, point, -ray.direction);
       if (is_black(connection.radiance)) continue;
-      continue_behind(ray, hits_[i].t);
+      continue_behind(ray, hits_[i], point);
       shadow_rays_[kept] = ray;
       connections_[kept] = connection;
       ++kept;

@@ -47,7 +47,7 @@ class PathIntegrator final : public Integrator {
   void gather_environment(const Path& path, PixelSample& sample) const;
   void gather_emission(const Path& path, const SurfacePoint& point, Color emission, PixelSample& sample) const;
   void sample_lights(Path& path, const SurfacePoint& point, const Bsdf& bsdf);
-  [[nodiscard]] bool scatter(Path& path, const SurfacePoint& point, const Bsdf& bsdf, float hit_t) const;
+  [[nodiscard]] bool scatter(Path& path, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const;
   [[nodiscard]] bool count_bounce(Path& path, ScatterKind kind) const;
   [[nodiscard]] bool survives_roulette(Path& path) const;
   void connect_through_transparency(std::span<PixelSample> samples);

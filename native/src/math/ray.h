@@ -28,6 +28,8 @@ struct Ray {
   float t_max = infinity;
   std::uint32_t kinds = ray_all;  // an instance is seen when its visibility has a bit of these
   float time = 0;                 // within the shutter, 0 opens and 1 closes
+  // The triangle that the ray starts on, which it can't hit again; none for a ray that starts in space.
+  std::uint32_t from_instance = ~0u, from_primitive = ~0u;
 
   [[nodiscard]] Vec3f at(float t) const { return origin + direction * t; }
 };

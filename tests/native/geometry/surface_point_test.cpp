@@ -153,6 +153,53 @@ TEST_F(SurfacePointTest, the_error_bound_is_about_a_rounding) {
   }
 }
 
+// The tracer's answer may be off by its single precision: the point is not.
+TEST_F(SurfacePointTest, a_rough_hit_gives_the_same_point) {
+  for (const bool is_sphere : {false, true})
+    for (int i = 0; i < 5000; ++i) {
+      Situation s = random_situation(is_sphere);
+      const SurfacePoint exact = s.point();
+      s.hit.t *= 1 + uniform(-1, 1) * (is_sphere ? 1e-7f : 1.5e-5f);
+      s.hit.u += uniform(-1, 1) * 1e-3f;
+      s.hit.v += uniform(-1, 1) * 1e-3f;
+      const SurfacePoint point = s.point();
+      EXPECT_EQ(point.position, exact.position) << i;
+      EXPECT_EQ(point.t, exact.t) << i;
+    }
+}
+
+TEST_F(SurfacePointTest, t_is_the_distance_along_the_ray) {
+  for (const bool is_sphere : {false, true})
+    for (int i = 0; i < 5000; ++i) {
+      const Situation s = random_situation(is_sphere);
+      const SurfacePoint point = s.point();
+      const Vec3d along_ray = Vec3d(s.ray.origin) + Vec3d(s.ray.direction) * double{point.t};
+      const double reach = length(Vec3d(s.ray.origin)) + length(Vec3d(point.position)) + double{point.t};
+      EXPECT_LT(length(along_ray - Vec3d(point.position)), 3e-7 * reach) << i << (is_sphere ? " sphere" : "");
+    }
+}
+
+// A hit that the tracer's rounding found beside the triangle.
+TEST_F(SurfacePointTest, a_hit_beside_the_triangle_is_on_its_edge) {
+  int beside = 0;
+  for (int i = 0; i < 5000; ++i) {
+    Situation s = random_situation(false, true);
+    Mesh& mesh = std::get<Mesh>(s.shape);
+    mesh.uvs = {{0, 0}, {1, 0}, {0, 1}};
+    // Towards a place just outside of an edge or a corner.
+    const float u = uniform(-0.2f, 1.2f), v = uniform(-0.2f, 1.2f);
+    const Vec3f target = mesh.positions[0] * (1 - u - v) + mesh.positions[1] * u + mesh.positions[2] * v;
+    s.ray.direction = Transform(s.object_to_world).point(target) - s.ray.origin;
+    s.hit = {.t = 1, .instance = 3, .primitive = 0, .u = u, .v = v};
+    const SurfacePoint point = s.point();
+    beside += u < 0 || v < 0 || u + v > 1;
+    EXPECT_TRUE(point.uv.x >= 0 && point.uv.y >= 0 && point.uv.x + point.uv.y <= 1 + 1e-6f) << u << " " << v;
+    EXPECT_TRUE(is_finite(point.shading_normal));
+    EXPECT_NEAR(point.t, 1, 1e-2);
+  }
+  EXPECT_GT(beside, 1000);
+}
+
 // The ray that leaves must not find the surface it left, wherever it goes.
 TEST_F(SurfacePointTest, rays_that_leave_do_not_meet_their_own_surface) {
   for (const bool is_sphere : {false, true}) {
@@ -428,6 +475,14 @@ TEST(SurfacePointData, carries_instance_primitive_and_material_slot) {
   EXPECT_EQ(point.material_slot, 5u);
   EXPECT_EQ(point.instance, 7u);
   EXPECT_EQ(point.primitive, 0u);
+}
+
+TEST(SurfacePointData, a_sphere_has_no_triangle) {
+  Situation s = simple_situation({});
+  s.shape = Sphere{};
+  s.hit = find_hit(s.shape, s.world_to_object, s.ray).value();
+  EXPECT_EQ(s.point().instance, 3u);
+  EXPECT_EQ(s.point().primitive, Hit::none);
 }
 
 }  // namespace
