@@ -106,7 +106,7 @@ SecondaryRays make_secondary_rays(const Shape& shape, std::span<const Ray> prima
   std::uniform_real_distribution<float> uniform(0, 1);
   for (std::size_t i = 0; i < primary.size(); ++i) {
     if (!hits[i].is_hit()) continue;
-    const SurfacePoint point = make_surface_point(shape, {}, {}, primary[i], hits[i]);
+    const SurfacePoint point = make_surface_point(shape, {}, primary[i], hits[i]);
     const Vec3f normal = point.is_backfacing ? -point.geometric_normal : point.geometric_normal;
     const Vec3f to_light = Vec3f{0.3f, 0.9f, 0.2f} - point.position;
     const float distance = length(to_light);

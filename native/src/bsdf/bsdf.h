@@ -102,6 +102,9 @@ struct SurfaceShading {
                                  Vec3f wo);
 [[nodiscard]] bool is_transparent(const Material& material);  // may transparency() be anything but black
 
+// Whether shade() looks at the point's dpdu and so on: add_derivatives() first.
+[[nodiscard]] bool needs_derivatives(const Material& material);
+
 // What the front (where the normal points) or the back of a surface emits, in every direction alike.
 enum class SurfaceSide : std::uint8_t { front, back };
 [[nodiscard]] Color emitted_radiance(const Material& material, SurfaceSide side);

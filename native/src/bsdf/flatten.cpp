@@ -53,8 +53,7 @@ void flatten(const GlossyShader& node, const Target& target, float weight) {
 void flatten(const ConductorShader& node, const Target& target, float weight) {
   const MicrofacetModel model = node.is_ggx ? MicrofacetModel::ggx : MicrofacetModel::beckmann;
   const ConductorFresnel fresnel{node.eta / node.eta_outside, node.k / node.eta_outside};
-  if (node.alpha_x != node.alpha_y)
-    target.shading.bsdf.set_frame(make_frame(target.point.shading_normal, target.point.dpdu));
+  if (node.is_stretched()) target.shading.bsdf.set_frame(make_frame(target.point.shading_normal, target.point.dpdu));
   target.shading.bsdf.add(MicrofacetReflection<ConductorFresnel>{{node.alpha_x, node.alpha_y, model}, fresnel},
                           target.eval(node.color) * weight, fresnel(target.cos_theta));
 }

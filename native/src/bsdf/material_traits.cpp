@@ -30,6 +30,14 @@ bool is_transparent(const Material& material) {
   return result;
 }
 
+bool needs_derivatives(const Material& material) {
+  bool result = false;
+  const Overloaded leaf{[&](const ConductorShader& node, float) { result |= node.is_stretched(); },
+                        [](const auto& /*round*/, float) {}};
+  for_each_leaf(material, leaf);
+  return result;
+}
+
 Color emitted_radiance(const Material& material, SurfaceSide side) {
   Color sum(0.0f);
   const Overloaded leaf{

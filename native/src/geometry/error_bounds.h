@@ -32,7 +32,7 @@ inline Vec3d point_error(const TransformD& transform, Vec3d p, Vec3d error) {
 // At least the error of p after it is rounded to floats too.
 inline Vec3f add_float_rounding(Vec3d p, Vec3d error) {
   const auto add = [](double x, double x_error) {
-    const double bound = x_error + std::abs(x - static_cast<double>(static_cast<float>(x)));
+    const double bound = x_error + std::abs(x) * 0x1p-24;
     // Rounding the bound itself takes off less than is added here.
     return static_cast<float>(bound * (1 + 0x1p-23)) + std::numeric_limits<float>::denorm_min();
   };

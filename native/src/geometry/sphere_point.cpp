@@ -10,7 +10,7 @@
 
 namespace basicrt {
 
-LocalPoint local_point_on_sphere(const Sphere& sphere, const PreciseRay& ray, const Hit& hit) {
+LocalPoint local_point_on(const Sphere& sphere, const PreciseRay& ray, const Hit& hit) {
   const Vec3d center(sphere.center);
   const double radius = sphere.radius;
   // The hit's distance is a float: solved again near it.
@@ -22,23 +22,28 @@ LocalPoint local_point_on_sphere(const Sphere& sphere, const PreciseRay& ray, co
 
   // Put back onto the sphere, which takes out nearly all of the error in t.
   const Vec3d outward = normalize(ray.origin + ray.direction * t - center);
-  LocalPoint point;
-  point.t = t;
-  point.position = center + outward * radius;
-  point.normal = point.shading_normal = outward;
-
   const double grazing = std::abs(dot(normalize(ray.direction), outward));
   const double along_ray = gamma(16) * (length(ray.origin) + length(center) + radius) / std::max(grazing, 1e-6);
-  point.error = Vec3d(gamma(16) * (length(center) + radius) + along_ray);
+  const Vec2f uv(sphere_uv(outward));
+  return {.t = t,
+          .position = center + outward * radius,
+          .error = Vec3d(gamma(16) * (length(center) + radius) + along_ray),
+          .normal = outward,
+          .shading_normal = Vec3f(outward),
+          .uv = uv,
+          .barycentrics = uv,
+          .is_backfacing = dot(ray.direction, outward) > 0,
+          .material_slot = 0};
+}
 
-  point.uv = sphere_uv(outward);
+LocalDerivatives derivatives_on_sphere(const Sphere& sphere, Vec3d position) {
+  const Vec3d outward = normalize(position - Vec3d(sphere.center));
   const double ring = std::hypot(outward.x, outward.y);
   const double cosine = ring > 0 ? outward.x / ring : 1, sine = ring > 0 ? outward.y / ring : 0;
-  point.dndu = Vec3d{-outward.y, outward.x, 0} * (2 * std::numbers::pi);
-  point.dndv = Vec3d{-outward.z * cosine, -outward.z * sine, ring} * std::numbers::pi;
-  point.dpdu = point.dndu * radius;
-  point.dpdv = point.dndv * radius;
-  return point;
+  const Vec3d dndu = Vec3d{-outward.y, outward.x, 0} * (2 * std::numbers::pi);
+  const Vec3d dndv = Vec3d{-outward.z * cosine, -outward.z * sine, ring} * std::numbers::pi;
+  const double radius = sphere.radius;
+  return {.dpdu = dndu * radius, .dpdv = dndv * radius, .normal = outward, .dndu = dndu, .dndv = dndv};
 }
 
 }  // namespace basicrt

@@ -11,11 +11,12 @@
 
 namespace basicrt {
 
-[[nodiscard]] inline SurfacePoint surface_point_at(const PreparedScene& scene, const Ray& ray, const Hit& hit,
-                                                   const RayDifferentials* differentials = nullptr) {
+[[nodiscard]] inline SurfacePoint surface_point_at(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
   const PreparedScene::PreparedInstance& instance = scene.instances[hit.instance];
-  return make_surface_point(scene.shapes[instance.shape], instance.object_to_world, instance.world_to_object, ray, hit,
-                            differentials);
+  const Shape& shape = scene.shapes[instance.shape];
+  SurfacePoint point = make_surface_point(shape, instance.placement, ray, hit);
+  if (instance.needs_derivatives) add_derivatives(point, shape, instance.placement);
+  return point;
 }
 
 [[nodiscard]] inline SurfaceShading shade_at(const PreparedScene& scene, const SurfacePoint& point, Vec3f wo) {

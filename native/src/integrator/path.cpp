@@ -42,7 +42,6 @@ void PathIntegrator::render(std::span<const CameraPath> paths, std::span<PixelSa
 }
 
 void PathIntegrator::begin(std::span<const CameraPath> paths, std::span<PixelSample> samples) {
-  camera_paths_ = paths;
   paths_.clear();
   for (std::uint32_t i = 0; i < paths.size(); ++i) {
     samples[i] = PixelSample{};
@@ -67,9 +66,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
       continue;
     }
 
-    const RayDifferentials* differentials =
-        path.is_camera_ray ? &camera_paths_[path.sample].camera_ray.differentials : nullptr;
-    const SurfacePoint point = surface_point_at(scene_, path.ray, hit, differentials);
+    const SurfacePoint point = surface_point_at(scene_, path.ray, hit);
     gather_lamps(path, point.t, sample);
     if (path.is_camera_ray && !sample.has_hit) record_first_hit(scene_, point, sample);
 

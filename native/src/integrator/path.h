@@ -53,7 +53,6 @@ class PathIntegrator final : public Integrator {
   void connect_through_transparency(std::span<PixelSample> samples);
 
   const PreparedScene& scene_;
-  std::span<const CameraPath> camera_paths_;
   std::vector<Path> paths_, next_paths_;
   std::vector<Ray> rays_;
   std::vector<Hit> hits_;

@@ -71,8 +71,8 @@ std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::u
   const PreparedScene::PreparedInstance& instance = scene.instances[index];
   EmissiveInstance result{.instance = index,
                           .shape = &scene.shapes[instance.shape],
-                          .object_to_world = instance.object_to_world,
-                          .world_to_object = instance.world_to_object,
+                          .object_to_world = instance.placement.object_to_world,
+                          .world_to_object = instance.placement.world_to_object,
                           .front = {},
                           .back = {}};
   bool shines = false;
@@ -102,15 +102,17 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     if (is_empty(prepared.shapes[instance.shape.index])) continue;
-    const TransformD object_to_world(instance.object_to_world), world_to_object = inverse(object_to_world);
+    const Placement placement{TransformD(instance.object_to_world)};
     const auto default_index = static_cast<std::uint32_t>(prepared.materials.size() - 1);
     prepared.instances.push_back({.shape = instance.shape.index,
-                                  .object_to_world = object_to_world,
-                                  .world_to_object = world_to_object,
+                                  .placement = placement,
                                   .materials = resolve_materials(instance, default_index)});
+    PreparedScene::PreparedInstance& added = prepared.instances.back();
+    for (const std::uint32_t material : added.materials)
+      added.needs_derivatives = added.needs_derivatives || needs_derivatives(prepared.materials[material]);
     traced.push_back({.shape = instance.shape.index,
-                      .object_to_world = object_to_world,
-                      .world_to_object = world_to_object,
+                      .object_to_world = placement.object_to_world,
+                      .world_to_object = placement.world_to_object,
                       .visibility = instance.visibility});
   }
   for (const Material& material : prepared.materials)

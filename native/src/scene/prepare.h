@@ -7,6 +7,7 @@
 
 #include "base/report.h"
 #include "bvh/tracer.h"
+#include "geometry/placement.h"
 #include "light/light_set.h"
 #include "scene/scene.h"
 
@@ -16,8 +17,9 @@ namespace basicrt {
 struct PreparedScene {
   struct PreparedInstance {
     std::uint32_t shape = 0;
-    TransformD object_to_world, world_to_object;
+    Placement placement;
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
+    bool needs_derivatives = false;        // one of the materials does
   };
 
   Camera camera;

@@ -73,6 +73,8 @@ struct ConductorShader {
   float alpha_x = 0.1f, alpha_y = 0.1f;
   Color eta_outside{1.0f}, eta{0.200438f, 0.924033f, 1.10221f}, k{3.91295f, 2.45285f, 2.14219f};
   bool is_ggx = false;
+
+  [[nodiscard]] bool is_stretched() const { return alpha_x != alpha_y; }
   static constexpr std::string_view kind = "roughconductor";
   static constexpr auto fields() {
     return std::tuple{field("reflectance", &ConductorShader::color, "multiplies the Fresnel reflectance", within(0, 1)),

@@ -19,12 +19,15 @@ using TransformL = Affine<long double>;
 // A shape somewhere in the world, and a ray that hits it.
 struct Situation {
   Shape shape;
-  TransformD object_to_world, world_to_object;
+  Placement placement;
   Ray ray{};
   Hit hit{};
 
-  [[nodiscard]] SurfacePoint point(const RayDifferentials* differentials = nullptr) const {
-    return make_surface_point(shape, object_to_world, world_to_object, ray, hit, differentials);
+  // With its derivatives.
+  [[nodiscard]] SurfacePoint point() const {
+    SurfacePoint result = make_surface_point(shape, placement, ray, hit);
+    add_derivatives(result, shape, placement);
+    return result;
   }
 };
 
@@ -62,6 +65,14 @@ class SurfacePointTest : public testing::Test {
     } while (std::abs(m.determinant()) < 0.05 * scale * scale * scale);
     return m;
   }
+  // Every other one only moves.
+  TransformD random_placement(float size, double scale) {
+    if (std::uniform_int_distribution<int>(0, 1)(rng_)) return random_transform(scale);
+    TransformD m;
+    const Vec3f translation = random_point(size * uniform(0, 100));
+    for (std::size_t axis = 0; axis < 3; ++axis) m.rows[axis][3] = double{translation[axis]};
+    return m;
+  }
   Mesh random_triangle(float size) {
     Mesh mesh;
     const Vec3f center = random_point(size * uniform(0, 100));
@@ -96,13 +107,12 @@ class SurfacePointTest : public testing::Test {
         if (is_for_derivatives) add_normals_and_uvs(mesh);
         s.shape = mesh;
       }
-      s.object_to_world = is_for_derivatives ? mild_transform() : random_transform(double{uniform(0.5f, 2)});
-      s.world_to_object = inverse(s.object_to_world);
-      const Bounds3f box = transform_bounds(Transform(s.object_to_world), bounds(s.shape));
+      s.placement = Placement(is_for_derivatives ? mild_transform() : random_placement(size, double{uniform(0.5f, 2)}));
+      const Bounds3f box = transform_bounds(Transform(s.placement.object_to_world), bounds(s.shape));
       s.ray.origin = box.center() + random_point(3 * max_component(box.extent()));
       const Vec3f target = box.lower + box.extent() * (random_point(0.5f) + Vec3f(0.5f));
       s.ray.direction = normalize(target - s.ray.origin);
-      if (const auto hit = find_hit(s.shape, s.world_to_object, s.ray)) {
+      if (const auto hit = find_hit(s.shape, s.placement.world_to_object, s.ray)) {
         s.hit = *hit;
         return s;
       }
@@ -112,7 +122,7 @@ class SurfacePointTest : public testing::Test {
 
 // The hit in extended precision.
 Vec3l exact_position(const Situation& s) {
-  const TransformL to_world(s.object_to_world), to_object(s.world_to_object);
+  const TransformL to_world(s.placement.object_to_world), to_object(s.placement.world_to_object);
   const Vec3l origin = to_object.point(Vec3l(s.ray.origin)), direction = to_object.vector(Vec3l(s.ray.direction));
   if (const Mesh* mesh = std::get_if<Mesh>(&s.shape)) {
     const Vec3l p0(mesh->positions[0]), e1 = Vec3l(mesh->positions[1]) - p0, e2 = Vec3l(mesh->positions[2]) - p0;
@@ -189,7 +199,7 @@ TEST_F(SurfacePointTest, a_hit_beside_the_triangle_is_on_its_edge) {
     // Towards a place just outside of an edge or a corner.
     const float u = uniform(-0.2f, 1.2f), v = uniform(-0.2f, 1.2f);
     const Vec3f target = mesh.positions[0] * (1 - u - v) + mesh.positions[1] * u + mesh.positions[2] * v;
-    s.ray.direction = Transform(s.object_to_world).point(target) - s.ray.origin;
+    s.ray.direction = Transform(s.placement.object_to_world).point(target) - s.ray.origin;
     s.hit = {.t = 1, .instance = 3, .primitive = 0, .u = u, .v = v};
     const SurfacePoint point = s.point();
     beside += u < 0 || v < 0 || u + v > 1;
@@ -211,7 +221,7 @@ TEST_F(SurfacePointTest, rays_that_leave_do_not_meet_their_own_surface) {
       // From inside a sphere the far side is met, and rightly so.
       if (is_sphere && dot(direction, point.geometric_normal) < 0) direction = -direction;
       const Ray next{.origin = offset_origin(point, direction), .direction = direction};
-      self_hits += find_hit(s.shape, s.world_to_object, next).has_value();
+      self_hits += find_hit(s.shape, s.placement.world_to_object, next).has_value();
     }
     EXPECT_EQ(self_hits, 0) << (is_sphere ? "sphere" : "triangle");
   }
@@ -224,12 +234,12 @@ TEST_F(SurfacePointTest, rays_into_a_sphere_meet_only_its_far_side) {
     const Vec3f direction = normalize(random_point(1));
     const float cosine = -dot(direction, point.geometric_normal);
     if (cosine < 0.01f) continue;
-    const auto hit =
-        find_hit(s.shape, s.world_to_object, {.origin = offset_origin(point, direction), .direction = direction});
+    const auto hit = find_hit(s.shape, s.placement.world_to_object,
+                              {.origin = offset_origin(point, direction), .direction = direction});
     ASSERT_TRUE(hit) << i;
     const Vec3d crossed = Vec3d(direction) * double{hit->t};
     const double radius = double{std::get<Sphere>(s.shape).radius};
-    EXPECT_GT(length(s.world_to_object.vector(crossed)), 1e-3 * radius) << i;
+    EXPECT_GT(length(s.placement.world_to_object.vector(crossed)), 1e-3 * radius) << i;
   }
 }
 
@@ -241,7 +251,7 @@ TEST_F(SurfacePointTest, rays_that_leave_meet_a_surface_close_by) {
     const Vec3f normal = point.geometric_normal;
     // The same triangle, moved away by a few times the error and pushed against by a ray along the normal.
     const float gap = 8 * dot(abs(normal), point.position_error) + 4e-7f * max_component(abs(point.position));
-    TransformD moved = s.object_to_world;
+    TransformD moved = s.placement.object_to_world;
     for (std::size_t axis = 0; axis < 3; ++axis) moved.rows[axis][3] += double{normal[axis] * gap};
     ++tried;
     const Ray next{.origin = offset_origin(point, normal), .direction = normal};
@@ -278,7 +288,7 @@ struct Neighbours {
 std::optional<SurfacePoint> find_neighbour(Situation s, Vec3f origin_step, Vec3f direction_step) {
   s.ray.origin += origin_step;
   s.ray.direction += direction_step;
-  const auto hit = find_hit(s.shape, s.world_to_object, s.ray);
+  const auto hit = find_hit(s.shape, s.placement.world_to_object, s.ray);
   if (!hit) return std::nullopt;
   s.hit = *hit;
   return s.point();
@@ -296,7 +306,7 @@ std::optional<Neighbours> find_neighbours(const Situation& s, const SurfacePoint
   const bool is_sphere = std::holds_alternative<Sphere>(s.shape);
   if (std::abs(dot(s.ray.direction, point.geometric_normal)) < 0.5f) return std::nullopt;
   if (is_sphere && (std::abs(point.uv.y - 0.5f) > 0.4f || std::abs(point.uv.x - 0.5f) > 0.49f)) return std::nullopt;
-  const Bounds3f box = transform_bounds(Transform(s.object_to_world), bounds(s.shape));
+  const Bounds3f box = transform_bounds(Transform(s.placement.object_to_world), bounds(s.shape));
   const float size = max_component(box.extent());
   if (s.hit.t < 0.01f * size) return std::nullopt;  // a step would cross the surface
   return find_neighbours(s, towards * (1e-3f * size), Vec3f(0));
@@ -330,8 +340,7 @@ TEST_F(SurfacePointTest, dndu_and_dndv_are_the_change_of_the_shading_normal_with
     int compared = 0;
     for (int i = 0; i < 4000; ++i) {
       const Situation s = random_situation(is_sphere, true);
-      const RayDifferentials differentials;
-      const SurfacePoint point = s.point(&differentials);
+      const SurfacePoint point = s.point();
       const auto near_by = find_neighbours(s, point, random_point(1));
       if (!near_by) continue;
       const Vec3d expected = near_by->normal_change();
@@ -352,13 +361,14 @@ TEST_F(SurfacePointTest, differentials_are_the_change_to_a_neighbouring_ray) {
     int compared = 0;
     for (int i = 0; i < 4000; ++i) {
       const Situation s = random_situation(is_sphere, true);
-      const Bounds3f box = transform_bounds(Transform(s.object_to_world), bounds(s.shape));
+      const Bounds3f box = transform_bounds(Transform(s.placement.object_to_world), bounds(s.shape));
       const float size = max_component(box.extent()), angle = std::min(1.0f, size / s.hit.t);
       const RayDifferentials differentials{.origin_dx = random_point(size),
                                            .origin_dy = random_point(size),
                                            .direction_dx = random_point(angle),
                                            .direction_dy = random_point(angle)};
-      const SurfacePoint point = s.point(&differentials);
+      SurfacePoint point = s.point();
+      add_pixel_change(point, s.ray, differentials);
       if (!find_neighbours(s, point, Vec3f(0))) continue;  // seen flat on
       const auto compare = [&](Vec3f origin_change, Vec3f direction_change, Vec3f dp, Vec2f duv) {
         constexpr float step = 1e-3f;
@@ -398,9 +408,9 @@ Situation simple_situation(const TransformD& object_to_world) {
   Mesh mesh;
   mesh.positions = {{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}};
   mesh.triangles = {{0, 1, 2}};
-  Situation s{.shape = mesh, .object_to_world = object_to_world, .world_to_object = inverse(object_to_world)};
+  Situation s{.shape = mesh, .placement = Placement(object_to_world)};
   s.ray = {.origin = {0.25f, 0.5f, 2}, .direction = {0, 0, -1}};
-  s.hit = find_hit(s.shape, s.world_to_object, s.ray).value();
+  s.hit = find_hit(s.shape, s.placement.world_to_object, s.ray).value();
   return s;
 }
 
@@ -440,9 +450,9 @@ TEST(SurfacePointSides, corner_normals_that_cancel_leave_the_geometric_normal) {
 TEST(SurfacePointSides, sphere_normals_point_outward_under_any_transform) {
   for (const double sign : {1.0, -1.0}) {
     const TransformD squashed({{{sign * 2, 0, 0, 1}, {0, 0.5, 0, 0}, {0, 0, 1, 0}}});
-    Situation s{.shape = Sphere{}, .object_to_world = squashed, .world_to_object = inverse(squashed)};
+    Situation s{.shape = Sphere{}, .placement = Placement(squashed)};
     s.ray = {.origin = {2, 0.1f, 5}, .direction = {0, 0, -1}};
-    s.hit = find_hit(s.shape, s.world_to_object, s.ray).value();
+    s.hit = find_hit(s.shape, s.placement.world_to_object, s.ray).value();
     const SurfacePoint point = s.point();
     // The gradient of (x-1)^2/4 + 4 y^2 + z^2.
     const Vec3f p = point.position;
@@ -480,7 +490,7 @@ TEST(SurfacePointData, carries_instance_primitive_and_material_slot) {
 TEST(SurfacePointData, a_sphere_has_no_triangle) {
   Situation s = simple_situation({});
   s.shape = Sphere{};
-  s.hit = find_hit(s.shape, s.world_to_object, s.ray).value();
+  s.hit = find_hit(s.shape, s.placement.world_to_object, s.ray).value();
   EXPECT_EQ(s.point().instance, 3u);
   EXPECT_EQ(s.point().primitive, Hit::none);
 }
