@@ -5,60 +5,6 @@
 #include <cmath>
 
 namespace basicrt {
-namespace {
-
-// The place on the window, in its own units.
-Vec2f window_point(Vec2f window_min, Vec2f window_max, Vec2f pixel, Vec2i size) {
-  return {std::lerp(window_min.x, window_max.x, pixel.x / static_cast<float>(size.x)),
-          std::lerp(window_min.y, window_max.y, pixel.y / static_cast<float>(size.y))};
-}
-
-Vec2f window_step(Vec2f window_min, Vec2f window_max, Vec2i size) {
-  return {(window_max.x - window_min.x) / static_cast<float>(size.x),
-          (window_max.y - window_min.y) / static_cast<float>(size.y)};
-}
-
-CameraRay make_ray(const PerspectiveCamera& camera, Vec2f pixel, Vec2i size) {
-  const Vec2f p = window_point(camera.window_min, camera.window_max, pixel, size);
-  const Vec2f step = window_step(camera.window_min, camera.window_max, size);
-  const Vec3f local{p.x, p.y, -1};
-  const float distance_per_depth = length(local);
-  const Vec3f towards = camera.to_world.vector(local);
-  const float scale = 1 / length(towards);
-
-  CameraRay result;
-  Ray& ray = result.ray;
-  ray.origin = camera.to_world.column(3);
-  ray.direction = towards * scale;
-  ray.t_min = camera.clip_near * distance_per_depth;
-  ray.t_max = camera.clip_far * distance_per_depth;
-  ray.kinds = ray_camera;
-  // The derivative of v / |v|, given that of v.
-  const auto direction_change = [&](Vec3f change) {
-    return (change - ray.direction * dot(ray.direction, change)) * scale;
-  };
-  result.differentials.direction_dx = direction_change(camera.to_world.column(0) * step.x);
-  result.differentials.direction_dy = direction_change(camera.to_world.column(1) * step.y);
-  return result;
-}
-
-CameraRay make_ray(const OrthographicCamera& camera, Vec2f pixel, Vec2i size) {
-  const Vec2f p = window_point(camera.window_min, camera.window_max, pixel, size);
-  const Vec2f step = window_step(camera.window_min, camera.window_max, size);
-
-  CameraRay result;
-  Ray& ray = result.ray;
-  ray.origin = camera.to_world.point(Vec3f{p.x, p.y, 0});
-  ray.direction = normalize(camera.to_world.vector(Vec3f{0, 0, -1}));
-  ray.t_min = camera.clip_near;
-  ray.t_max = camera.clip_far;
-  ray.kinds = ray_camera;
-  result.differentials.origin_dx = camera.to_world.vector(Vec3f{step.x, 0, 0});
-  result.differentials.origin_dy = camera.to_world.vector(Vec3f{0, step.y, 0});
-  return result;
-}
-
-}  // namespace
 
 PerspectiveCamera make_look_at_camera(Vec3f position, Vec3f look_at, Vec3f up, float fov, float aspect) {
   const Vec3f forward = normalize(look_at - position);
@@ -73,13 +19,43 @@ PerspectiveCamera make_look_at_camera(Vec3f position, Vec3f look_at, Vec3f up, f
   return camera;
 }
 
-CameraRay make_camera_ray(const Camera& camera, Vec2f pixel, Vec2i size) {
-  return std::visit([&](const auto& kind) { return make_ray(kind, pixel, size); }, camera);
+CameraView::CameraView(const Camera& camera, Vec2i film_size) {
+  const auto set = [&](const auto& kind) {
+    const Vec2f window = kind.window_max - kind.window_min;
+    set_window(kind, {window.x / static_cast<float>(film_size.x), window.y / static_cast<float>(film_size.y)});
+    position_ = kind.to_world.column(3);
+    axis_ = normalize(-kind.to_world.column(2));
+    clip_near_ = kind.clip_near;
+    clip_far_ = kind.clip_far;
+  };
+  std::visit(set, camera);
 }
 
-float camera_depth(const Camera& camera, Vec3f position) {
-  const Transform& to_world = std::visit([](const auto& kind) -> const Transform& { return kind.to_world; }, camera);
-  return dot(position - to_world.column(3), normalize(-to_world.column(2)));
+void CameraView::set_window(const PerspectiveCamera& camera, Vec2f step) {
+  origin_ = camera.to_world.column(3);
+  direction_ = camera.to_world.vector(Vec3f{camera.window_min.x, camera.window_min.y, -1});
+  direction_dx_ = camera.to_world.column(0) * step.x;
+  direction_dy_ = camera.to_world.column(1) * step.y;
+}
+
+void CameraView::set_window(const OrthographicCamera& camera, Vec2f step) {
+  origin_ = camera.to_world.point(Vec3f{camera.window_min.x, camera.window_min.y, 0});
+  origin_dx_ = camera.to_world.column(0) * step.x;
+  origin_dy_ = camera.to_world.column(1) * step.y;
+  direction_ = -camera.to_world.column(2);
+}
+
+RayDifferentials CameraView::differentials(Vec2f pixel) const {
+  const Vec3f direction = direction_ + direction_dx_ * pixel.x + direction_dy_ * pixel.y;
+  const float scale = 1 / length(direction);
+  // The derivative of v / |v|, given that of v.
+  const auto unit_change = [&](Vec3f change) {
+    return (change - direction * (dot(direction, change) * scale * scale)) * scale;
+  };
+  return {.origin_dx = origin_dx_,
+          .origin_dy = origin_dy_,
+          .direction_dx = unit_change(direction_dx_),
+          .direction_dy = unit_change(direction_dy_)};
 }
 
 }  // namespace basicrt

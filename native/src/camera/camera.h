@@ -49,14 +49,35 @@ using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
 // `fov` is the full vertical angle, radians; `aspect` is width over height.
 [[nodiscard]] PerspectiveCamera make_look_at_camera(Vec3f position, Vec3f look_at, Vec3f up, float fov, float aspect);
 
-struct CameraRay {
-  Ray ray;
-  RayDifferentials differentials;
-};
+// A camera made ready for a film of one size. Places on the film are in pixels, (0, 0) its lower left corner.
+class CameraView {
+ public:
+  CameraView() = default;
+  CameraView(const Camera& camera, Vec2i film_size);
 
-// `pixel` is a place on the film in pixels, (0, 0) its lower left corner; `size` the film's.
-[[nodiscard]] CameraRay make_camera_ray(const Camera& camera, Vec2f pixel, Vec2i size);
-// Depth along the viewing axis, as the Depth pass has it.
-[[nodiscard]] float camera_depth(const Camera& camera, Vec3f position);
+  [[nodiscard]] Ray ray(Vec2f pixel) const {
+    const Vec3f direction = normalize(direction_ + direction_dx_ * pixel.x + direction_dy_ * pixel.y);
+    const float distance_per_depth = 1 / dot(direction, axis_);
+    return {.origin = origin_ + origin_dx_ * pixel.x + origin_dy_ * pixel.y,
+            .t_min = clip_near_ * distance_per_depth,
+            .direction = direction,
+            .t_max = clip_far_ * distance_per_depth,
+            .kinds = ray_camera};
+  }
+  // How the ray there changes.
+  [[nodiscard]] RayDifferentials differentials(Vec2f pixel) const;
+  // Depth along the viewing axis, as the Depth pass has it.
+  [[nodiscard]] float depth(Vec3f position) const { return dot(position - position_, axis_); }
+
+ private:
+  void set_window(const PerspectiveCamera& camera, Vec2f step);
+  void set_window(const OrthographicCamera& camera, Vec2f step);
+
+  // Of the ray through (0, 0), and how they change from pixel to pixel. Directions are not yet of unit length.
+  Vec3f origin_, origin_dx_, origin_dy_;
+  Vec3f direction_, direction_dx_, direction_dy_;
+  Vec3f position_, axis_;  // the camera's, of unit length
+  float clip_near_ = 0, clip_far_ = infinity;
+};
 
 }  // namespace basicrt

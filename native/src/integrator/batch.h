@@ -11,11 +11,8 @@
 
 namespace basicrt {
 
-// The next hit of each path's `ray`. `rays` is room to gather them in.
-template <class Path>
-void find_hits(const Tracer& tracer, const std::vector<Path>& paths, std::vector<Ray>& rays, std::vector<Hit>& hits) {
-  rays.clear();
-  for (const Path& path : paths) rays.push_back(path.ray);
+// The next hit of each ray.
+inline void find_hits(const Tracer& tracer, const std::vector<Ray>& rays, std::vector<Hit>& hits) {
   hits.resize(rays.size());
   tracer.intersect(rays, hits);
 }

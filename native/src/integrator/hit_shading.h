@@ -26,7 +26,7 @@ namespace basicrt {
 // Notes the passes of a camera ray's first hit.
 inline void record_first_hit(const PreparedScene& scene, const SurfacePoint& point, PixelSample& sample) {
   sample.has_hit = true;
-  sample.depth = camera_depth(scene.camera, point.position);
+  sample.depth = scene.view.depth(point.position);
   sample.normal = point.is_backfacing ? -point.shading_normal : point.shading_normal;
 }
 

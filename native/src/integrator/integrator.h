@@ -4,26 +4,37 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
-#include "camera/camera.h"
 #include "film/film.h"
+#include "math/ray.h"
 #include "sampling/sampler.h"
 #include "scene/prepare.h"
 
 namespace basicrt {
 
-// A path before its first surface: where its camera ray starts, and the numbers it draws.
-struct CameraPath {
-  CameraRay camera_ray;
-  Sampler sampler;
+// Paths before their first surface: the camera ray of each, and the numbers it draws.
+struct CameraPaths {
+  std::vector<Ray> rays;
+  std::vector<Sampler> samplers;
+
+  void add(const Ray& ray, const Sampler& sampler) {
+    rays.push_back(ray);
+    samplers.push_back(sampler);
+  }
+  void clear() {
+    rays.clear();
+    samplers.clear();
+  }
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(rays.size()); }
 };
 
-// Fills samples[i] for paths[i]. A batch of one gives the same sample as the same path in a batch of many. Not thread
+// Fills samples[i] for the path i. A batch of one gives the same sample as the same path in a batch of many. Not thread
 // safe: each worker has its own, with the batch's memory in it. The scene must outlive it.
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  virtual void render(std::span<const CameraPath> paths, std::span<PixelSample> samples) = 0;
+  virtual void render(const CameraPaths& paths, std::span<PixelSample> samples) = 0;
 };
 
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(const PreparedScene& scene);

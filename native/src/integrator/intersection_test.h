@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bsdf/bsdf.h"
 #include "integrator/integrator.h"
 
 namespace basicrt {
@@ -12,29 +13,29 @@ namespace basicrt {
 class IntersectionTest final : public Integrator {
  public:
   explicit IntersectionTest(const PreparedScene& scene) : scene_(scene) {}
-  void render(std::span<const CameraPath> paths, std::span<PixelSample> samples) override;
+  void render(const CameraPaths& paths, std::span<PixelSample> samples) override;
 
  private:
   struct Path {
     std::uint32_t sample;  // which of the batch's samples it is for
-    Ray ray;
     Sampler sampler;
     Color throughput{1.0f};
-    bool is_camera_ray = true;
   };
   struct ShadowTest {
     std::uint32_t sample;
     Color radiance;  // if nothing is in the way
   };
 
-  void begin(std::span<const CameraPath> paths, std::span<PixelSample> samples);
-  void extend();                                 // finds each path's next hit
-  void shade(std::span<PixelSample> samples);    // refracts it, or asks for its light
-  void connect(std::span<PixelSample> samples);  // tests the shadow rays
+  void begin(const CameraPaths& paths, std::span<PixelSample> samples);
+  void extend();                                                   // finds each path's next hit
+  void shade(std::span<PixelSample> samples, bool is_camera_ray);  // refracts it, or asks for its light
+  void connect(std::span<PixelSample> samples);                    // tests the shadow rays
+
+  void gather_light(const Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf);
 
   const PreparedScene& scene_;
-  std::vector<Path> paths_, next_paths_;
-  std::vector<Ray> rays_;
+  std::vector<Path> paths_;
+  std::vector<Ray> rays_;  // the next one of each path
   std::vector<Hit> hits_;
   std::vector<Ray> shadow_rays_;
   std::vector<ShadowTest> shadow_tests_;

@@ -30,9 +30,14 @@ std::uint32_t ray_kind(ScatterKind kind) {
   return 0;
 }
 
+Ray up_to(Ray ray, const SurfacePoint& point) {
+  ray.t_max = point.t;
+  return ray;
+}
+
 }  // namespace
 
-void PathIntegrator::render(std::span<const CameraPath> paths, std::span<PixelSample> samples) {
+void PathIntegrator::render(const CameraPaths& paths, std::span<PixelSample> samples) {
   begin(paths, samples);
   while (!paths_.empty()) {
     extend();
@@ -41,49 +46,49 @@ void PathIntegrator::render(std::span<const CameraPath> paths, std::span<PixelSa
   }
 }
 
-void PathIntegrator::begin(std::span<const CameraPath> paths, std::span<PixelSample> samples) {
+void PathIntegrator::begin(const CameraPaths& paths, std::span<PixelSample> samples) {
+  std::fill(samples.begin(), samples.end(), PixelSample{});
+  rays_ = paths.rays;
   paths_.clear();
-  for (std::uint32_t i = 0; i < paths.size(); ++i) {
-    samples[i] = PixelSample{};
-    paths_.push_back({.sample = i, .ray = paths[i].camera_ray.ray, .sampler = paths[i].sampler});
-  }
+  for (std::uint32_t i = 0; i < paths.size(); ++i) paths_.push_back({.sample = i, .sampler = paths.samplers[i]});
 }
 
-void PathIntegrator::extend() { find_hits(scene_.tracer, paths_, rays_, hits_); }
+void PathIntegrator::extend() { find_hits(scene_.tracer, rays_, hits_); }
 
 void PathIntegrator::shade(std::span<PixelSample> samples) {
-  next_paths_.clear();
   shadow_rays_.clear();
   connections_.clear();
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     Path& path = paths_[i];
+    Ray& ray = rays_[i];
     const Hit& hit = hits_[i];
     PixelSample& sample = samples[path.sample];
-
     if (!hit.is_hit()) {
-      gather_lamps(path, path.ray.t_max, sample);
+      gather_lamps(path, ray, sample);
       gather_environment(path, sample);
       continue;
     }
 
-    const SurfacePoint point = surface_point_at(scene_, path.ray, hit);
-    gather_lamps(path, point.t, sample);
+    const SurfacePoint point = surface_point_at(scene_, ray, hit);
+    gather_lamps(path, up_to(ray, point), sample);
     if (path.is_camera_ray && !sample.has_hit) record_first_hit(scene_, point, sample);
 
-    const SurfaceShading shading = shade_at(scene_, point, -path.ray.direction);
-    gather_emission(path, point, shading.emission, sample);
+    const SurfaceShading shading = shade_at(scene_, point, -ray.direction);
+    gather_emission(path, ray, point, shading.emission, sample);
     if (shading.bsdf.is_empty()) continue;
-    if (!path.is_last) sample_lights(path, point, shading.bsdf);
-    if (scatter(path, hit, point, shading.bsdf)) next_paths_.push_back(path);
+    if (!path.is_last) sample_lights(path, ray, point, shading.bsdf);
+    if (!scatter(path, ray, hit, point, shading.bsdf)) continue;
+    rays_[kept] = ray;
+    paths_[kept++] = path;
   }
-  paths_.swap(next_paths_);
+  paths_.resize(kept);
+  rays_.resize(kept);
 }
 
 // Lamps do not block rays: each one between the ray's ends adds its light.
-void PathIntegrator::gather_lamps(const Path& path, float t_end, PixelSample& sample) const {
-  Ray segment = path.ray;
-  segment.t_max = t_end;
-  scene_.lights.for_each_lamp_hit(segment, [&](const LightHit& hit) {
+void PathIntegrator::gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const {
+  scene_.lights.for_each_lamp_hit(ray, [&](const LightHit& hit) {
     const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
     sample.radiance += path.throughput * hit.radiance * weight;
   });
@@ -98,40 +103,40 @@ void PathIntegrator::gather_environment(const Path& path, PixelSample& sample) c
   sample.radiance += path.throughput * scene_.lights.environment().radiance * weight;
 }
 
-void PathIntegrator::gather_emission(const Path& path, const SurfacePoint& point, Color emission,
+void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
                                      PixelSample& sample) const {
   if (is_black(emission)) return;
   const float weight =
-      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, path.ray.origin));
+      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, ray.origin));
   sample.radiance += path.throughput * emission * weight;
 }
 
-void PathIntegrator::sample_lights(Path& path, const SurfacePoint& point, const Bsdf& bsdf) {
+void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf) {
   if (bsdf.has_only_deltas() || scene_.lights.is_empty()) return;
   const float choice = path.sampler.next_1d();
   const std::optional<LightSample> light = scene_.lights.sample(point.position, choice, path.sampler.next_2d());
   if (!light) return;
-  const BsdfValue reflected = bsdf.eval(-path.ray.direction, light->wi);
+  const BsdfValue reflected = bsdf.eval(-ray.direction, light->wi);
   const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, reflected.pdf);
   const Color radiance = path.throughput * reflected.value * light->radiance * (weight / light->pdf);
   if (is_black(radiance)) return;
-  shadow_rays_.push_back(spawn_shadow_ray(point, light->wi, light->distance, path.ray.time));
+  shadow_rays_.push_back(spawn_shadow_ray(point, light->wi, light->distance, ray.time));
   connections_.push_back({path.sample, radiance, path.bounces.transparent});
 }
 
 // Sends the path on in a sampled direction. False where it ends.
-bool PathIntegrator::scatter(Path& path, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const {
+bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const {
   const float choice = path.sampler.next_1d();
-  const std::optional<BsdfSample> scattered = bsdf.sample(-path.ray.direction, choice, path.sampler.next_2d());
+  const std::optional<BsdfSample> scattered = bsdf.sample(-ray.direction, choice, path.sampler.next_2d());
   if (!scattered || (path.is_last && scattered->kind != ScatterKind::transparent)) return false;
   path.throughput *= scattered->weight;
   if (is_black(path.throughput) || !count_bounce(path, scattered->kind)) return false;
 
   if (scattered->kind == ScatterKind::transparent) {
-    continue_behind(path.ray, hit, point);
+    continue_behind(ray, hit, point);
     return true;
   }
-  path.ray = spawn_ray(point, scattered->wi, ray_kind(scattered->kind), path.ray.time);
+  ray = spawn_ray(point, scattered->wi, ray_kind(scattered->kind), ray.time);
   path.bsdf_pdf = scattered->pdf;
   path.is_specular = scattered->is_delta;
   path.is_camera_ray = false;

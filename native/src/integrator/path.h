@@ -13,7 +13,7 @@ namespace basicrt {
 class PathIntegrator final : public Integrator {
  public:
   explicit PathIntegrator(const PreparedScene& scene) : scene_(scene) {}
-  void render(std::span<const CameraPath> paths, std::span<PixelSample> samples) override;
+  void render(const CameraPaths& paths, std::span<PixelSample> samples) override;
 
  private:
   // Scatterings so far, by kind.
@@ -22,7 +22,6 @@ class PathIntegrator final : public Integrator {
   };
   struct Path {
     std::uint32_t sample;  // which of the batch's samples it is for
-    Ray ray;
     Sampler sampler;
     Color throughput{1.0f};
     Bounces bounces = {};
@@ -38,23 +37,25 @@ class PathIntegrator final : public Integrator {
     int transparent_bounces;  // before it
   };
 
-  void begin(std::span<const CameraPath> paths, std::span<PixelSample> samples);
+  void begin(const CameraPaths& paths, std::span<PixelSample> samples);
   void extend();                                 // finds each path's next hit
   void shade(std::span<PixelSample> samples);    // gathers emission, samples a light, scatters
   void connect(std::span<PixelSample> samples);  // tests the light samples for shadow
 
-  void gather_lamps(const Path& path, float t_end, PixelSample& sample) const;
+  // `ray` is the one that the path came by, up to the surface.
+  void gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const;
   void gather_environment(const Path& path, PixelSample& sample) const;
-  void gather_emission(const Path& path, const SurfacePoint& point, Color emission, PixelSample& sample) const;
-  void sample_lights(Path& path, const SurfacePoint& point, const Bsdf& bsdf);
-  [[nodiscard]] bool scatter(Path& path, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const;
+  void gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
+                       PixelSample& sample) const;
+  void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf);
+  [[nodiscard]] bool scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const;
   [[nodiscard]] bool count_bounce(Path& path, ScatterKind kind) const;
   [[nodiscard]] bool survives_roulette(Path& path) const;
   void connect_through_transparency(std::span<PixelSample> samples);
 
   const PreparedScene& scene_;
-  std::vector<Path> paths_, next_paths_;
-  std::vector<Ray> rays_;
+  std::vector<Path> paths_;
+  std::vector<Ray> rays_;  // the next one of each path
   std::vector<Hit> hits_;
   std::vector<Ray> shadow_rays_;
   std::vector<Connection> connections_;

@@ -21,7 +21,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Enough rays for the tracer to chew on, few enough to stay in the cache and to stop soon.
-constexpr int batch_size = 512;
+constexpr std::uint32_t batch_size = 512;
+
+// Where a sample goes: a pixel of the tile, and its weight there.
+struct Place {
+  int x, y;
+  float weight;
+};
 
 PixelRect picture_rect(const RenderSettings& settings) {
   const PixelRect border{settings.border_x, settings.border_y, settings.border_width, settings.border_height};
@@ -89,11 +95,9 @@ void Session::State::work() {
 // Nothing when it was stopped half-way.
 std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrator& integrator) {
   const RenderSettings& settings = scene.settings;
-  const Vec2i size{settings.width, settings.height};
   TileAccumulator accumulator(tile, settings.passes);
-  std::vector<CameraPath> paths;
-  std::vector<float> weights;
-  std::vector<Vec2i> pixels;
+  CameraPaths paths;
+  std::vector<Place> places;
   std::vector<PixelSample> samples(batch_size);
 
   const auto flush = [&] {
@@ -101,23 +105,23 @@ std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrato
     integrator.render(paths, batch);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       batch[i].radiance *= settings.exposure;
-      accumulator.add(pixels[i].x - tile.x, pixels[i].y - tile.y, batch[i], weights[i]);
+      accumulator.add(places[i].x, places[i].y, batch[i], places[i].weight);
     }
     samples_done += batch.size();
     paths.clear();
-    weights.clear();
-    pixels.clear();
+    places.clear();
   };
 
-  for (int y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int x = tile.x; x < tile.x + tile.width; ++x) {
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const Vec2i pixel{tile.x + x, tile.y + y};
+      const Vec2f center{static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f};
+      const std::uint64_t key = Sampler::make_pixel_key(pixel, static_cast<std::uint64_t>(settings.seed));
       for (int sample = 0; sample < settings.samples; ++sample) {
-        Sampler sampler({x, y}, static_cast<std::uint32_t>(sample), static_cast<std::uint64_t>(settings.seed));
+        Sampler sampler(key, static_cast<std::uint32_t>(sample));
         const FilterSample place = filter.sample(sampler.next_2d());
-        const Vec2f center{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-        paths.push_back({make_camera_ray(scene.camera, center + place.offset, size), sampler});
-        weights.push_back(place.weight);
-        pixels.push_back({x, y});
+        paths.add(scene.view.ray(center + place.offset), sampler);
+        places.push_back({x, y, place.weight});
         if (paths.size() < batch_size) continue;
         flush();
         if (stop) return std::nullopt;

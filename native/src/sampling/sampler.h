@@ -14,16 +14,22 @@ namespace basicrt {
 class Sampler {
  public:
   Sampler() = default;
-  Sampler(Vec2i pixel, std::uint32_t sample, std::uint64_t seed)
-      : key_(hash(hash(seed, sample), (std::uint64_t(std::uint32_t(pixel.y)) << 32) | std::uint32_t(pixel.x))) {}
+  Sampler(std::uint64_t pixel_key, std::uint32_t sample) : key_(hash(pixel_key ^ sample)) {}
 
-  [[nodiscard]] float next_1d() { return to_unit_float(static_cast<std::uint32_t>(hash(key_, dimension_++) >> 32)); }
+  // What the samples of one pixel have in common.
+  [[nodiscard]] static std::uint64_t make_pixel_key(Vec2i pixel, std::uint64_t seed) {
+    return hash(seed, (std::uint64_t(std::uint32_t(pixel.y)) << 32) | std::uint32_t(pixel.x));
+  }
+
+  [[nodiscard]] float next_1d() { return to_unit_float(static_cast<std::uint32_t>(next_bits() >> 32)); }
   [[nodiscard]] Vec2f next_2d() {
-    const std::uint64_t bits = hash(key_, dimension_++);
+    const std::uint64_t bits = next_bits();
     return {to_unit_float(static_cast<std::uint32_t>(bits >> 32)), to_unit_float(static_cast<std::uint32_t>(bits))};
   }
 
  private:
+  [[nodiscard]] std::uint64_t next_bits() { return hash(key_ ^ dimension_++); }
+
   std::uint64_t key_ = 0;
   std::uint64_t dimension_ = 0;
 };

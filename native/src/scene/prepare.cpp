@@ -90,7 +90,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   validate(scene);
 
   PreparedScene prepared;
-  prepared.camera = *scene.camera;
+  prepared.view = CameraView(*scene.camera, {scene.settings.width, scene.settings.height});
   prepared.settings = scene.settings;
   prepared.textures = scene.textures;
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i) prepared.materials.push_back(scene.materials[i]);

@@ -22,7 +22,7 @@ struct PreparedScene {
     bool needs_derivatives = false;        // one of the materials does
   };
 
-  Camera camera;
+  CameraView view;
   RenderSettings settings;
   std::vector<Shape> shapes;
   std::vector<std::uint64_t> shape_revisions;

@@ -250,16 +250,16 @@ TEST(Integrator, a_batch_of_one_gives_the_same_sample) {
   add_instance(scene, Sphere{{0, 0, 0}, 1}, add_material(scene, GlassShader{.roughness = 0.3f}));
   Report report;
   const PreparedScene prepared = prepare(scene, report);
-  std::vector<CameraPath> paths;
-  for (int i = 0; i < 100; ++i)
-    paths.push_back(
-        {make_camera_ray(prepared.camera, {4, 4}, {8, 8}), Sampler({4, 4}, static_cast<std::uint32_t>(i), 0)});
+  CameraPaths paths;
+  for (std::uint32_t i = 0; i < 100; ++i) paths.add(prepared.view.ray({4, 4}), Sampler(7, i));
   std::vector<PixelSample> together(paths.size());
   const std::unique_ptr<Integrator> integrator = make_integrator(prepared);
   integrator->render(paths, together);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     PixelSample alone;
-    integrator->render({&paths[i], 1}, {&alone, 1});
+    CameraPaths path;
+    path.add(paths.rays[i], paths.samplers[i]);
+    integrator->render(path, {&alone, 1});
     EXPECT_EQ(alone.radiance, together[i].radiance) << i;
   }
 }
