@@ -4,8 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 
+#include "base/assert.h"
 #include "base/table.h"
 #include "bsdf/lobe.h"
 #include "bsdf/lobes.h"
@@ -40,19 +43,37 @@ class Bsdf {
   // The normals keep the surface's own side, as in SurfacePoint.
   Bsdf(const Frame& shading_frame, Vec3f geometric_normal)
       : frame_(shading_frame), geometric_normal_(geometric_normal) {}
+  // The lobes of another surface point.
+  Bsdf(const Frame& shading_frame, Vec3f geometric_normal, const Bsdf& other)
+      : frame_(shading_frame),
+        geometric_normal_(geometric_normal),
+        albedo_(other.albedo_),
+        selection_(other.selection_),
+        has_only_deltas_(other.has_only_deltas_),
+        lobes_(other.lobes_) {}
 
   // Adds a lobe with a colour weight; black ones are left out. `albedo` is a guess of the share that the lobe itself
   // reflects or transmits: lobes are picked in proportion. Never more than max_lobes: validate() has refused such a
   // material.
-  void add(const Lobe& lobe, Color weight, Color albedo = Color(1.0f));
+  template <class OneLobe>
+  void add(const OneLobe& lobe, Color weight, Color albedo = Color(1.0f)) {
+    const Color share = weight * albedo;
+    const float selection = luminance(share);
+    if (!(selection > 0)) return;
+    lobes_.append({lobe, weight, selection});
+    selection_ += selection;
+    albedo_ += share;
+    has_only_deltas_ = has_only_deltas_ && lobe.is_delta();
+  }
 
   // wo is the direction that the lobes were made for.
   [[nodiscard]] BsdfValue eval(Vec3f wo, Vec3f wi) const;
   // `choice` picks the lobe, `u` the direction. Nothing where the light is absorbed.
   [[nodiscard]] std::optional<BsdfSample> sample(Vec3f wo, float choice, Vec2f u) const;
 
-  [[nodiscard]] bool has_only_deltas() const;  // then eval() is zero everywhere and lights need not be sampled
-  [[nodiscard]] bool is_empty() const { return count_ == 0; }
+  // Then eval() is zero everywhere and lights need not be sampled.
+  [[nodiscard]] bool has_only_deltas() const { return has_only_deltas_; }
+  [[nodiscard]] bool is_empty() const { return lobes_.count == 0; }
   // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
 
@@ -65,10 +86,25 @@ class Bsdf {
     Color weight;
     float selection;  // in proportion to the probability of being picked; all of them add up to selection_
   };
-  // Room for a lobe that is made when it is added: constructing sixteen would cost more than shading does.
-  union Slot {
-    Slot() {}  // NOLINT: not yet a lobe
-    WeightedLobe filled;
+  // Only the lobes in use are made and copied: all sixteen would cost more than shading does.
+  struct LobeList {
+    int count = 0;
+    union {
+      WeightedLobe lobes[max_lobes];
+    };
+
+    LobeList() {}  // NOLINT: no lobes yet
+    LobeList(const LobeList& other) { *this = other; }
+    LobeList& operator=(const LobeList& other) {
+      count = other.count;
+      for (int i = 0; i < count; ++i) std::construct_at(&lobes[i], other.lobes[i]);
+      return *this;
+    }
+    void append(const WeightedLobe& lobe) {
+      BASICRT_ASSERT(count < max_lobes);
+      std::construct_at(&lobes[count++], lobe);
+    }
+    [[nodiscard]] std::span<const WeightedLobe> used() const { return {lobes, static_cast<std::size_t>(count)}; }
   };
 
   // The directions as the lobes want them: z is the shading normal on wo's side of the surface.
@@ -76,22 +112,29 @@ class Bsdf {
     float sign;  // -1: wo is at the back of the surface
     Vec3f wo;
   };
-  [[nodiscard]] Side find_side(Vec3f wo) const;
-  [[nodiscard]] bool leaks(const Side& side, Vec3f world_wi, Vec3f local_wi) const;
-  [[nodiscard]] LobeValue eval_lobes(Vec3f wo, Vec3f wi, int except) const;
+  [[nodiscard]] Side find_side(Vec3f wo) const {
+    const float sign = dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f;
+    return {sign, frame_.to_local(wo * sign)};
+  }
+  [[nodiscard]] bool leaks(const Side& side, Vec3f world_wi, Vec3f local_wi) const {
+    return (dot(geometric_normal_, world_wi) * side.sign > 0) != (local_wi.z > 0);
+  }
+  [[nodiscard]] LobeValue eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except) const;
 
   Frame frame_;
   Vec3f geometric_normal_{0, 0, 1};
   Color albedo_{0.0f};
   float selection_ = 0;
-  int count_ = 0;
-  Slot lobes_[max_lobes];
+  bool has_only_deltas_ = true;
+  LobeList lobes_;
 };
 
 // What a material does at a surface point seen from wo: scatters, emits, and lets through unscattered.
 struct SurfaceShading {
   Bsdf bsdf;
   Color emission{0.0f};  // radiance towards wo
+  // It is the same, but for the frame, at every point and for every wo on this side of the surface.
+  bool is_uniform = true;
 };
 
 [[nodiscard]] SurfaceShading shade(const Material& material, const Table<Texture>& textures, const SurfacePoint& point,

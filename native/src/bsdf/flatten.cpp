@@ -14,11 +14,20 @@ namespace {
 struct Target {
   const Table<Texture>& textures;
   const SurfacePoint& point;
-  bool is_back;     // the viewer is behind the surface
-  float cos_theta;  // between the viewer and the shading normal on his side, at least 0
+  Vec3f wo;
+  bool is_back;  // the viewer is behind the surface
   SurfaceShading& shading;
 
-  [[nodiscard]] Color eval(const ColorInput& input) const { return eval_color(input, textures, point.uv); }
+  // Whoever asks for either gets something that isn't the same everywhere.
+  [[nodiscard]] Color eval(const ColorInput& input) const {
+    shading.is_uniform = shading.is_uniform && is_constant(input, textures);
+    return eval_color(input, textures, point.uv);
+  }
+  // Between the viewer and the shading normal on his side, at least 0.
+  [[nodiscard]] float cos_theta() const {
+    shading.is_uniform = false;
+    return std::clamp(dot(point.shading_normal, wo) * (is_back ? -1.0f : 1.0f), 0.0f, 1.0f);
+  }
   // The index beyond the surface over that on the viewer's side.
   [[nodiscard]] float relative_ior(float ior) const { return is_back ? 1 / ior : ior; }
 };
@@ -46,16 +55,17 @@ void flatten(const GlossyShader& node, const Target& target, float weight) {
   const Color color = target.eval(node.color);
   const Microfacets microfacets = make_microfacets(node.roughness, node.distribution);
   const Color scale = compensate(microfacets, node.distribution,
-                                 [&] { return multiple_scattering(node.roughness, target.cos_theta, color); });
+                                 [&] { return multiple_scattering(node.roughness, target.cos_theta(), color); });
   target.shading.bsdf.add(MicrofacetReflection<NoFresnel>{microfacets, {}}, color * scale * weight);
 }
 
 void flatten(const ConductorShader& node, const Target& target, float weight) {
   const MicrofacetModel model = node.is_ggx ? MicrofacetModel::ggx : MicrofacetModel::beckmann;
   const ConductorFresnel fresnel{node.eta / node.eta_outside, node.k / node.eta_outside};
-  if (node.is_stretched()) target.shading.bsdf.set_frame(make_frame(target.point.shading_normal, target.point.dpdu));
+  if (node.is_stretched())
+    target.shading.bsdf.set_frame(make_frame(target.point.shading_normal, target.point.derivatives->dpdu));
   target.shading.bsdf.add(MicrofacetReflection<ConductorFresnel>{{node.alpha_x, node.alpha_y, model}, fresnel},
-                          target.eval(node.color) * weight, fresnel(target.cos_theta));
+                          target.eval(node.color) * weight, fresnel(target.cos_theta()));
 }
 
 void flatten(const RefractionShader& node, const Target& target, float weight) {
@@ -76,9 +86,9 @@ void flatten(const GlassShader& node, const Target& target, float weight) {
                         .reflect_tint = target.eval(node.reflect_color),
                         .transmit_tint = target.eval(node.transmit_color)};
   const Color scale = compensate(microfacets, node.distribution, [&] {
-    return glass_multiple_scattering(node.roughness, lobe.eta, target.cos_theta, lobe.transmit_tint);
+    return glass_multiple_scattering(node.roughness, lobe.eta, target.cos_theta(), lobe.transmit_tint);
   });
-  target.shading.bsdf.add(lobe, scale * weight, lobe.albedo(target.cos_theta));
+  target.shading.bsdf.add(lobe, scale * weight, lobe.albedo(target.cos_theta()));
 }
 
 void flatten(const TransparentShader& node, const Target& target, float weight) {
@@ -92,19 +102,20 @@ void flatten(const EmissionShader& node, const Target& target, float weight) {
 void add_metal(const PrincipledShader& node, const Target& target, Color base, float weight) {
   const SchlickFresnel fresnel{base};
   const Microfacets microfacets = make_microfacets(node.roughness, node.distribution);
-  const Color scale = compensate(microfacets, node.distribution,
-                                 [&] { return multiple_scattering(node.roughness, target.cos_theta, fresnel.mean()); });
+  const Color scale = compensate(microfacets, node.distribution, [&] {
+    return multiple_scattering(node.roughness, target.cos_theta(), fresnel.mean());
+  });
   target.shading.bsdf.add(MicrofacetReflection<SchlickFresnel>{microfacets, fresnel}, scale * weight,
-                          fresnel(target.cos_theta));
+                          fresnel(target.cos_theta()));
 }
 
 void add_reflection_over_diffuse(const PrincipledShader& node, const Target& target, Color base, float weight) {
   const float f0 = reflectance_from_ior(node.ior) * 2 * node.specular_ior_level;
   const float ior = node.specular_ior_level == 0.5f ? node.ior : ior_from_reflectance(f0);
   const Microfacets microfacets = make_microfacets(node.roughness, node.distribution);
-  DielectricLayer layer = dielectric_layer(node.roughness, ior, target.cos_theta);
+  DielectricLayer layer = dielectric_layer(node.roughness, ior, target.cos_theta());
   if (node.distribution != FacetDistribution::multi_ggx) layer = {1, layer.albedo / layer.scale};
-  if (microfacets.is_smooth()) layer = {1, fresnel_dielectric(target.cos_theta, ior).reflectance};
+  if (microfacets.is_smooth()) layer = {1, fresnel_dielectric(target.cos_theta(), ior).reflectance};
   Bsdf& bsdf = target.shading.bsdf;
   bsdf.add(MicrofacetReflection<InterfaceFresnel>{microfacets, {ior}}, Color(weight * layer.scale),
            Color(layer.albedo / layer.scale));
@@ -138,8 +149,7 @@ void flatten(const PrincipledShader& node, const Target& target, float weight) {
 SurfaceShading shade(const Material& material, const Table<Texture>& textures, const SurfacePoint& point, Vec3f wo) {
   SurfaceShading shading{Bsdf(make_frame(point.shading_normal), point.geometric_normal)};
   const bool is_back = dot(point.geometric_normal, wo) < 0;
-  const float cos_theta = std::clamp(dot(point.shading_normal, wo) * (is_back ? -1.0f : 1.0f), 0.0f, 1.0f);
-  const Target target{textures, point, is_back, cos_theta, shading};
+  const Target target{textures, point, wo, is_back, shading};
   for_each_leaf(material, [&](const auto& node, float weight) { flatten(node, target, weight); });
   return shading;
 }

@@ -14,6 +14,10 @@ inline Color eval_color(const ColorInput& input, const Table<Texture>& textures,
   return input.texture.is_valid() ? eval_texture(textures[input.texture], uv) : input.constant;
 }
 
+inline bool is_constant(const ColorInput& input, const Table<Texture>& textures) {
+  return !input.texture.is_valid() || std::holds_alternative<ConstantTexture>(textures[input.texture]);
+}
+
 // Calls visit(node, weight) for each way from `index` to a node that is neither Mix nor Add, with the product of the
 // shares on the way. lobe_count() bounds how many there are.
 template <class Visitor>

@@ -10,19 +10,20 @@
 namespace basicrt {
 namespace {
 
-void set_normal_change(SurfacePoint& point, const TransformD& world_to_object, const LocalDerivatives& local) {
+void set_normal_change(SurfaceDerivatives& derivatives, Vec3f shading_normal, const TransformD& world_to_object,
+                       const LocalDerivatives& local) {
   const Vec3d normal = world_to_object.transposed_vector(local.normal);
   const double inverse_length = 1 / length(normal);
   if (!(inverse_length > 0 && std::isfinite(inverse_length))) return;
   const Vec3d unit = normal * inverse_length;
-  const double side = dot(unit, Vec3d(point.shading_normal)) < 0 ? -1 : 1;
+  const double side = dot(unit, Vec3d(shading_normal)) < 0 ? -1 : 1;
   // The derivative of n / |n|, given that of n.
   const auto unit_derivative = [&](Vec3d local_derivative) {
     const Vec3d derivative = world_to_object.transposed_vector(local_derivative);
     return Vec3f((derivative - unit * dot(unit, derivative)) * (inverse_length * side));
   };
-  point.dndu = unit_derivative(local.dndu);
-  point.dndv = unit_derivative(local.dndv);
+  derivatives.dndu = unit_derivative(local.dndu);
+  derivatives.dndv = unit_derivative(local.dndv);
 }
 
 // Igehy 1999, "Tracing Ray Differentials": the neighbouring rays meet the tangent plane.
@@ -37,13 +38,13 @@ void set_position_change(SurfacePoint& point, const Ray& ray, const RayDifferent
   const Vec3f dpdx = shift(differentials.origin_dx, differentials.direction_dx);
   const Vec3f dpdy = shift(differentials.origin_dy, differentials.direction_dy);
   if (!is_finite(dpdx) || !is_finite(dpdy)) return;
-  point.dpdx = dpdx;
-  point.dpdy = dpdy;
+  point.derivatives->dpdx = dpdx;
+  point.derivatives->dpdy = dpdy;
 }
 
 // The least-squares solutions of dpdu * du + dpdv * dv = dpdx (dpdy).
-void set_uv_change(SurfacePoint& point) {
-  const Vec3d dpdu(point.dpdu), dpdv(point.dpdv);
+void set_uv_change(SurfaceDerivatives& derivatives) {
+  const Vec3d dpdu(derivatives.dpdu), dpdv(derivatives.dpdv);
   const double uu = length_squared(dpdu), uv = dot(dpdu, dpdv), vv = length_squared(dpdv);
   const double inverse_determinant = 1 / (uu * vv - uv * uv);
   if (!(inverse_determinant > 0 && std::isfinite(inverse_determinant))) return;
@@ -51,8 +52,8 @@ void set_uv_change(SurfacePoint& point) {
     const double u = dot(dpdu, Vec3d(change)), v = dot(dpdv, Vec3d(change));
     return Vec2f(Vec2d{vv * u - uv * v, uu * v - uv * u} * inverse_determinant);
   };
-  point.duvdx = solve(point.dpdx);
-  point.duvdy = solve(point.dpdy);
+  derivatives.duvdx = solve(derivatives.dpdx);
+  derivatives.duvdy = solve(derivatives.dpdy);
 }
 
 }  // namespace
@@ -65,14 +66,15 @@ void add_derivatives(SurfacePoint& point, const Shape& shape, const Placement& p
     return derivatives_on_sphere(sphere, placement.world_to_object.point(Vec3d(point.position)));
   };
   const LocalDerivatives local = std::visit(Overloaded{on_triangle, on_sphere}, shape);
-  point.dpdu = Vec3f(placement.object_to_world.vector(local.dpdu));
-  point.dpdv = Vec3f(placement.object_to_world.vector(local.dpdv));
-  set_normal_change(point, placement.world_to_object, local);
+  SurfaceDerivatives& derivatives = point.derivatives.emplace();
+  derivatives.dpdu = Vec3f(placement.object_to_world.vector(local.dpdu));
+  derivatives.dpdv = Vec3f(placement.object_to_world.vector(local.dpdv));
+  set_normal_change(derivatives, point.shading_normal, placement.world_to_object, local);
 }
 
 void add_pixel_change(SurfacePoint& point, const Ray& ray, const RayDifferentials& differentials) {
   set_position_change(point, ray, differentials);
-  set_uv_change(point);
+  set_uv_change(*point.derivatives);
 }
 
 }  // namespace basicrt

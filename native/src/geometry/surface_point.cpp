@@ -27,27 +27,28 @@ struct WorldPoint {
 };
 
 // Taking the point to the world, and taking it back as the origin of the next ray, both round.
-WorldPoint to_world(const Placement& placement, const LocalPoint& local) {
-  const TransformD &there = placement.object_to_world, &back = placement.world_to_object;
-  if (placement.is_translation) {
-    const Vec3d translation = there.column(3);
-    return {.position = local.position + translation,
-            .error = local.error + (abs(local.position) + abs(translation)) * gamma(4),
-            .normal = local.normal,
-            .shading_normal = local.shading_normal};
-  }
-  // Normals by the inverse transpose, which keeps the outward side outward under mirroring too.
-  const Vec3d position = there.point(local.position);
+WorldPoint translate(const LocalPoint& local, Vec3d translation) {
+  return {.position = local.position + translation,
+          .error = local.error + (abs(local.position) + abs(translation)) * gamma(4),
+          .normal = local.normal,
+          .shading_normal = local.shading_normal};
+}
+
+// Normals by the inverse transpose, which keeps the outward side outward under mirroring too.
+WorldPoint transform(LocalPoint local, const TransformD& to_world, const TransformD& to_object) {
+  const Vec3d position = to_world.point(local.position);
   return {.position = position,
-          .error = point_error(there, local.position, local.error + point_error(back, position, Vec3d(0))),
-          .normal = back.transposed_vector(local.normal),
-          .shading_normal = Vec3f(back.transposed_vector(Vec3d(local.shading_normal)))};
+          .error = point_error(to_world, local.position, local.error + point_error(to_object, position, Vec3d(0))),
+          .normal = to_object.transposed_vector(local.normal),
+          .shading_normal = Vec3f(to_object.transposed_vector(Vec3d(local.shading_normal)))};
 }
 
 template <class Geometry>
 SurfacePoint make_point(const Geometry& geometry, const Placement& placement, const Ray& ray, const Hit& hit) {
   const LocalPoint local = local_point_on(geometry, placement.to_object(ray), hit);
-  const WorldPoint world = to_world(placement, local);
+  const WorldPoint world = placement.is_translation
+                               ? translate(local, placement.object_to_world.column(3))
+                               : transform(local, placement.object_to_world, placement.world_to_object);
   SurfacePoint point;
   point.position = Vec3f(world.position);
   point.position_error = add_float_rounding(world.position, world.error);
@@ -68,14 +69,6 @@ SurfacePoint make_point(const Geometry& geometry, const Placement& placement, co
 
 SurfacePoint make_surface_point(const Shape& shape, const Placement& placement, const Ray& ray, const Hit& hit) {
   return std::visit([&](const auto& geometry) { return make_point(geometry, placement, ray, hit); }, shape);
-}
-
-// Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", section 6.8.6. What rounding the moved point may take
-// back, half a unit in the last place, is moved beforehand and twice over.
-Vec3f offset_origin(const SurfacePoint& point, Vec3f direction) {
-  const Vec3f normal = point.geometric_normal;
-  const float distance = dot(abs(normal), point.position_error + abs(point.position) * 0x1p-23f);
-  return point.position + normal * std::copysign(distance, dot(direction, normal));
 }
 
 }  // namespace basicrt

@@ -2,7 +2,9 @@
 // All that shading needs to know of a hit.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "geometry/hit.h"
 #include "geometry/placement.h"
@@ -10,6 +12,15 @@
 #include "math/ray.h"
 
 namespace basicrt {
+
+// How a point changes, in world space.
+struct SurfaceDerivatives {
+  Vec3f dpdu, dpdv;  // of position with uv
+  Vec3f dndu, dndv;  // of the shading normal with uv
+  // Zero before add_pixel_change():
+  Vec3f dpdx, dpdy;    // of position per pixel
+  Vec2f duvdx, duvdy;  // of uv per pixel
+};
 
 // World space. Normals keep the side of the surface (they point out of the front face), whatever side was hit.
 struct SurfacePoint {
@@ -23,13 +34,8 @@ struct SurfacePoint {
   std::uint32_t instance = 0;
   std::uint32_t primitive = 0;  // the triangle; Hit::none on a sphere
   std::uint32_t material_slot = 0;
-  bool is_backfacing = false;  // the ray came from the side that geometric_normal points away from
-  // Zero before add_derivatives():
-  Vec3f dpdu, dpdv;  // change of position with uv
-  Vec3f dndu, dndv;  // change of the shading normal with uv
-  // Zero before add_pixel_change():
-  Vec3f dpdx, dpdy;    // change of position per pixel
-  Vec2f duvdx, duvdy;  // change of uv per pixel
+  bool is_backfacing = false;                     // the ray came from the side that geometric_normal points away from
+  std::optional<SurfaceDerivatives> derivatives;  // once add_derivatives() was called
 };
 
 // The hit solved again from the vertices in double precision, but never outside the triangle that the tracer found: where
@@ -39,10 +45,16 @@ struct SurfacePoint {
 
 // What few materials need, and so is worked out only for them.
 void add_derivatives(SurfacePoint& point, const Shape& shape, const Placement& placement);
-// Needs the derivatives.
+// For a point that has its derivatives.
 void add_pixel_change(SurfacePoint& point, const Ray& ray, const RayDifferentials& differentials);
 
-// An origin for a ray that leaves the surface towards `direction`: moved off it by the error bound, no more.
-[[nodiscard]] Vec3f offset_origin(const SurfacePoint& point, Vec3f direction);
+// An origin for a ray that leaves the surface towards `direction`: moved off it by the error bound, no more (Pharr, Jakob
+// and Humphreys 2023, "Physically Based Rendering", section 6.8.6). What rounding the moved point may take back, half a
+// unit in the last place, is moved beforehand and twice over.
+[[nodiscard]] inline Vec3f offset_origin(const SurfacePoint& point, Vec3f direction) {
+  const Vec3f normal = point.geometric_normal;
+  const float distance = dot(abs(normal), point.position_error + abs(point.position) * 0x1p-23f);
+  return point.position + normal * std::copysign(distance, dot(direction, normal));
+}
 
 }  // namespace basicrt

@@ -120,7 +120,7 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
   const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, reflected.pdf);
   const Color radiance = path.throughput * reflected.value * light->radiance * (weight / light->pdf);
   if (is_black(radiance)) return;
-  shadow_rays_.push_back(spawn_shadow_ray(point, light->wi, light->distance, ray.time));
+  shadow_rays_.emplace_back() = spawn_shadow_ray(point, light->wi, light->distance, ray.time);
   connections_.push_back({path.sample, radiance, path.bounces.transparent});
 }
 
@@ -195,7 +195,7 @@ void PathIntegrator::connect_through_transparency(std::span<PixelSample> samples
       }
       if (++connection.transparent_bounces > scene_.settings.transparent_bounces) continue;
       const SurfacePoint point = surface_point_at(scene_, ray, hits_[i]);
-      connection.radiance *= transparency(scene_.material_of(point), scene_.textures, point, -ray.direction);
+      connection.radiance *= transparency(scene_.material_of(point).material, scene_.textures, point, -ray.direction);
       if (is_black(connection.radiance)) continue;
       continue_behind(ray, hits_[i], point);
       shadow_rays_[kept] = ray;

@@ -66,6 +66,11 @@ struct Double2 {
     return {_mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(pair))))};
   }
   static Double2 all(double x) { return {_mm_set1_pd(x)}; }
+  static Double2 of(double x, double y) { return {_mm_setr_pd(x, y)}; }
+  [[nodiscard]] double first() const { return _mm_cvtsd_f64(lanes); }
+  [[nodiscard]] double second() const { return _mm_cvtsd_f64(_mm_unpackhi_pd(lanes, lanes)); }
+  [[nodiscard]] Double2 swapped() const { return {_mm_shuffle_pd(lanes, lanes, 1)}; }
+  friend Double2 abs(Double2 a) { return {_mm_andnot_pd(_mm_set1_pd(-0.0), a.lanes)}; }
   void store(double* aligned) const { _mm_store_pd(aligned, lanes); }
   friend Double2 operator+(Double2 a, Double2 b) { return {_mm_add_pd(a.lanes, b.lanes)}; }
   friend Double2 operator-(Double2 a, Double2 b) { return {_mm_sub_pd(a.lanes, b.lanes)}; }
@@ -148,6 +153,11 @@ struct Double2 {
 
   static Double2 from_floats(const float* pair) { return {{pair[0], pair[1]}}; }
   static Double2 all(double x) { return {{x, x}}; }
+  static Double2 of(double x, double y) { return {{x, y}}; }
+  [[nodiscard]] double first() const { return lanes[0]; }
+  [[nodiscard]] double second() const { return lanes[1]; }
+  [[nodiscard]] Double2 swapped() const { return {{lanes[1], lanes[0]}}; }
+  friend Double2 abs(Double2 a) { return {{std::fabs(a.lanes[0]), std::fabs(a.lanes[1])}}; }
   void store(double* p) const { p[0] = lanes[0], p[1] = lanes[1]; }
   friend Double2 operator+(Double2 a, Double2 b) { return {{a.lanes[0] + b.lanes[0], a.lanes[1] + b.lanes[1]}}; }
   friend Double2 operator-(Double2 a, Double2 b) { return {{a.lanes[0] - b.lanes[0], a.lanes[1] - b.lanes[1]}}; }

@@ -77,9 +77,10 @@ std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::u
                           .back = {}};
   bool shines = false;
   for (const std::uint32_t material : instance.materials) {
-    shines = shines || is_emissive(scene.materials[material]);
-    result.front.push_back(emitted_radiance(scene.materials[material], SurfaceSide::front));
-    result.back.push_back(emitted_radiance(scene.materials[material], SurfaceSide::back));
+    const Material& described = scene.materials[material].material;
+    shines = shines || is_emissive(described);
+    result.front.push_back(emitted_radiance(described, SurfaceSide::front));
+    result.back.push_back(emitted_radiance(described, SurfaceSide::back));
   }
   return shines ? std::optional(std::move(result)) : std::nullopt;
 }
@@ -93,8 +94,9 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   prepared.view = CameraView(*scene.camera, {scene.settings.width, scene.settings.height});
   prepared.settings = scene.settings;
   prepared.textures = scene.textures;
-  for (std::uint32_t i = 0; i < scene.materials.size(); ++i) prepared.materials.push_back(scene.materials[i]);
-  prepared.materials.push_back(default_material());
+  for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
+    prepared.materials.emplace_back(scene.materials[i], prepared.textures);
+  prepared.materials.emplace_back(default_material(), prepared.textures);
 
   std::vector<ShapeTree> trees = prepare_shapes(scene, report, previous, prepared);
 
@@ -109,14 +111,14 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
                                   .materials = resolve_materials(instance, default_index)});
     PreparedScene::PreparedInstance& added = prepared.instances.back();
     for (const std::uint32_t material : added.materials)
-      added.needs_derivatives = added.needs_derivatives || needs_derivatives(prepared.materials[material]);
+      added.needs_derivatives = added.needs_derivatives || needs_derivatives(prepared.materials[material].material);
     traced.push_back({.shape = instance.shape.index,
                       .object_to_world = placement.object_to_world,
                       .world_to_object = placement.world_to_object,
                       .visibility = instance.visibility});
   }
-  for (const Material& material : prepared.materials)
-    prepared.has_transparency = prepared.has_transparency || is_transparent(material);
+  for (const PreparedMaterial& prepared_material : prepared.materials)
+    prepared.has_transparency = prepared.has_transparency || is_transparent(prepared_material.material);
   prepared.tracer = Tracer(std::move(trees), std::move(traced), bvh_config(scene.settings));
 
   std::vector<Light> lamps;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/report.h"
+#include "bsdf/prepared_material.h"
 #include "bvh/tracer.h"
 #include "geometry/placement.h"
 #include "light/light_set.h"
@@ -27,13 +28,13 @@ struct PreparedScene {
   std::vector<Shape> shapes;
   std::vector<std::uint64_t> shape_revisions;
   Table<Texture> textures;
-  std::vector<Material> materials;  // the last one is the default
+  std::vector<PreparedMaterial> materials;  // the last one is the default
   std::vector<PreparedInstance> instances;
   Tracer tracer;
   LightSet lights;
   bool has_transparency = false;  // shadow rays must look at what they hit
 
-  [[nodiscard]] const Material& material_of(const SurfacePoint& point) const {
+  [[nodiscard]] const PreparedMaterial& material_of(const SurfacePoint& point) const {
     const std::vector<std::uint32_t>& slots = instances[point.instance].materials;
     return materials[slots[std::min<std::size_t>(point.material_slot, slots.size() - 1)]];
   }

@@ -134,7 +134,7 @@ TEST(Shade, stretched_microfacets_follow_the_tangent) {
   node.alpha_x = 0.4f;
   node.alpha_y = 0.05f;
   SurfacePoint point = make_point();
-  point.dpdu = {0, 3, 0};
+  point.derivatives->dpdu = {0, 3, 0};
   const Vec3f wo{0, 0, 1};
   const Bsdf bsdf = make_bsdf(make_material(node), point, wo);
   EXPECT_GT(bsdf.eval(wo, direction_at(20, 90)).value.x, 100 * bsdf.eval(wo, direction_at(20, 0)).value.x);

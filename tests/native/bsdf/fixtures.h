@@ -28,8 +28,7 @@ inline SurfacePoint make_point(Vec3f geometric_normal, Vec3f shading_normal) {
   point.geometric_normal = normalize(geometric_normal);
   point.shading_normal = normalize(shading_normal);
   const Frame frame = make_frame(point.shading_normal);
-  point.dpdu = frame.tangent;
-  point.dpdv = frame.bitangent;
+  point.derivatives = SurfaceDerivatives{.dpdu = frame.tangent, .dpdv = frame.bitangent};
   return point;
 }
 inline SurfacePoint make_point(Vec3f normal = {0, 0, 1}) { return make_point(normal, normal); }

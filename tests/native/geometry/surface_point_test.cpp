@@ -314,7 +314,8 @@ std::optional<Neighbours> find_neighbours(const Situation& s, const SurfacePoint
 
 // Of differences of floats of this size.
 double rounding_of(const SurfacePoint& point) {
-  return 2.5e-7 * (length(Vec3d(point.position)) + length(Vec3d(point.dpdu)) + length(Vec3d(point.dpdv)));
+  return 2.5e-7 * (length(Vec3d(point.position)) + length(Vec3d(point.derivatives->dpdu)) +
+                   length(Vec3d(point.derivatives->dpdv)));
 }
 
 TEST_F(SurfacePointTest, dpdu_and_dpdv_are_the_change_of_position_with_uv) {
@@ -326,7 +327,8 @@ TEST_F(SurfacePointTest, dpdu_and_dpdv_are_the_change_of_position_with_uv) {
       const auto near_by = find_neighbours(s, point, random_point(1));
       if (!near_by) continue;
       const Vec3d expected = near_by->position_change();
-      const Vec3d predicted = Vec3d(point.dpdu) * near_by->uv_change().x + Vec3d(point.dpdv) * near_by->uv_change().y;
+      const Vec3d predicted = Vec3d(point.derivatives->dpdu) * near_by->uv_change().x +
+                              Vec3d(point.derivatives->dpdv) * near_by->uv_change().y;
       EXPECT_LT(length(expected - predicted), 1e-3 * length(expected) + rounding_of(point))
           << i << (is_sphere ? " sphere" : " triangle");
       ++compared;
@@ -346,8 +348,10 @@ TEST_F(SurfacePointTest, dndu_and_dndv_are_the_change_of_the_shading_normal_with
       const Vec3d expected = near_by->normal_change();
       if (length(expected) > 1) continue;  // shading normals turn over where they pass under the surface
       const Vec2d uv_change = near_by->uv_change();
-      const Vec3d predicted = Vec3d(point.dndu) * uv_change.x + Vec3d(point.dndv) * uv_change.y;
-      const double rounding = 2.5e-7 * (1 + length(Vec3d(point.dndu)) + length(Vec3d(point.dndv)));
+      const Vec3d predicted =
+          Vec3d(point.derivatives->dndu) * uv_change.x + Vec3d(point.derivatives->dndv) * uv_change.y;
+      const double rounding =
+          2.5e-7 * (1 + length(Vec3d(point.derivatives->dndu)) + length(Vec3d(point.derivatives->dndv)));
       EXPECT_LT(length(expected - predicted), 1e-3 * length(expected) + rounding)
           << i << (is_sphere ? " sphere" : " triangle");
       ++compared;
@@ -379,13 +383,14 @@ TEST_F(SurfacePointTest, differentials_are_the_change_to_a_neighbouring_ray) {
             << i << (is_sphere ? " sphere" : " triangle");
         // The difference in uv, taken to space.
         const Vec2d uv_error = near_by->uv_change() - Vec2d(duv) * 2e-3;
-        const Vec3d in_space = Vec3d(point.dpdu) * uv_error.x + Vec3d(point.dpdv) * uv_error.y;
+        const Vec3d in_space =
+            Vec3d(point.derivatives->dpdu) * uv_error.x + Vec3d(point.derivatives->dpdv) * uv_error.y;
         EXPECT_LT(length(in_space), 2e-2 * length(expected) + rounding_of(point))
             << i << (is_sphere ? " sphere" : " triangle");
         ++compared;
       };
-      compare(differentials.origin_dx, differentials.direction_dx, point.dpdx, point.duvdx);
-      compare(differentials.origin_dy, differentials.direction_dy, point.dpdy, point.duvdy);
+      compare(differentials.origin_dx, differentials.direction_dx, point.derivatives->dpdx, point.derivatives->duvdx);
+      compare(differentials.origin_dy, differentials.direction_dy, point.derivatives->dpdy, point.derivatives->duvdy);
     }
     EXPECT_GT(compared, 1000);
   }
@@ -397,8 +402,8 @@ TEST_F(SurfacePointTest, normals_are_perpendicular_to_the_surface_and_of_unit_le
       const SurfacePoint point = random_situation(is_sphere, true).point();
       EXPECT_NEAR(length(point.geometric_normal), 1, 1e-6);
       EXPECT_NEAR(length(point.shading_normal), 1, 1e-6);
-      EXPECT_NEAR(dot(point.geometric_normal, normalize(point.dpdu)), 0, 1e-5);
-      EXPECT_NEAR(dot(point.geometric_normal, normalize(point.dpdv)), 0, 1e-5);
+      EXPECT_NEAR(dot(point.geometric_normal, normalize(point.derivatives->dpdu)), 0, 1e-5);
+      EXPECT_NEAR(dot(point.geometric_normal, normalize(point.derivatives->dpdv)), 0, 1e-5);
       EXPECT_GE(dot(point.geometric_normal, point.shading_normal), 0);
     }
 }
@@ -468,12 +473,12 @@ TEST(SurfacePointUv, is_interpolated_or_barycentric_and_survives_a_degenerate_ma
   Mesh& mesh = std::get<Mesh>(s.shape);
   mesh.uvs = {{-1, -1}, {2, -1}, {-1, 2}};
   EXPECT_NEAR(s.point().uv.x, 0.25f, 1e-6);
-  EXPECT_LT(length(s.point().dpdu - Vec3f{1, 0, 0}), 1e-6f);
-  EXPECT_LT(length(s.point().dpdv - Vec3f{0, 1, 0}), 1e-6f);
+  EXPECT_LT(length(s.point().derivatives->dpdu - Vec3f{1, 0, 0}), 1e-6f);
+  EXPECT_LT(length(s.point().derivatives->dpdv - Vec3f{0, 1, 0}), 1e-6f);
   mesh.uvs.assign(3, {0.5f, 0.25f});
   const SurfacePoint point = s.point();
   EXPECT_EQ(point.uv, Vec2f(0.5f, 0.25f));
-  EXPECT_GT(length(cross(point.dpdu, point.dpdv)), 0.1f);
+  EXPECT_GT(length(cross(point.derivatives->dpdu, point.derivatives->dpdv)), 0.1f);
 }
 
 TEST(SurfacePointData, carries_instance_primitive_and_material_slot) {

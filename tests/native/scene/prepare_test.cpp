@@ -49,7 +49,7 @@ TEST(Prepare, a_slot_without_a_material_is_grey) {
   Scene scene = scene_of(one_triangle(0));
   Report report;
   const PreparedScene prepared = prepare(scene, report);
-  EXPECT_EQ(prepared.material_of(SurfacePoint{}).name, "default");
+  EXPECT_EQ(prepared.material_of(SurfacePoint{}).material.name, "default");
 }
 
 TEST(Prepare, a_changed_shape_is_built_again_and_an_unchanged_one_is_still_hit) {

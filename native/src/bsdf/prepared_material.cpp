@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shades a material once for each side, to see whether that will do for every point.
+#include "bsdf/prepared_material.h"
+
+#include <utility>
+
+namespace basicrt {
+namespace {
+
+std::optional<SurfaceShading> uniform_shading(const Material& material, const Table<Texture>& textures, Vec3f wo) {
+  SurfacePoint anywhere;
+  anywhere.geometric_normal = anywhere.shading_normal = {0, 0, 1};
+  anywhere.derivatives.emplace().dpdu = {1, 0, 0};
+  const SurfaceShading shading = shade(material, textures, anywhere, wo);
+  return shading.is_uniform ? std::optional(shading) : std::nullopt;
+}
+
+}  // namespace
+
+PreparedMaterial::PreparedMaterial(Material the_material, const Table<Texture>& textures)
+    : material(std::move(the_material)),
+      front(uniform_shading(material, textures, {0, 0, 1})),
+      back(uniform_shading(material, textures, {0, 0, -1})) {}
+
+SurfaceShading shade(const PreparedMaterial& prepared, const Table<Texture>& textures, const SurfacePoint& point,
+                     Vec3f wo) {
+  const std::optional<SurfaceShading>& uniform = dot(point.geometric_normal, wo) < 0 ? prepared.back : prepared.front;
+  if (!uniform) return shade(prepared.material, textures, point, wo);
+  return {Bsdf(make_frame(point.shading_normal), point.geometric_normal, uniform->bsdf), uniform->emission};
+}
+
+}  // namespace basicrt

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A material with what shade() makes of it, where that is always the same.
+#pragma once
+
+#include <optional>
+
+#include "bsdf/bsdf.h"
+
+namespace basicrt {
+
+struct PreparedMaterial {
+  Material material;
+  std::optional<SurfaceShading> front, back;  // of each side that is uniform
+
+  PreparedMaterial(Material the_material, const Table<Texture>& textures);
+};
+
+[[nodiscard]] SurfaceShading shade(const PreparedMaterial& prepared, const Table<Texture>& textures,
+                                   const SurfacePoint& point, Vec3f wo);
+
+}  // namespace basicrt
