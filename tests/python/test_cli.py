@@ -3,6 +3,7 @@
 
 import importlib.util
 import json
+import os
 import re
 import signal
 import subprocess
@@ -127,17 +128,37 @@ def test_wrong_usage_is_status_2(arguments: list[str]) -> None:
     assert "usage: basicrt" in done.stderr
 
 
+def wait_for_threads(process: subprocess.Popen[str], count: int, seconds: float = 60) -> None:
+    """Until the process has this many threads; fails where it ends before, or never has."""
+    deadline = time.monotonic() + seconds
+    while thread_count(process.pid) < count:
+        assert process.poll() is None, process.communicate()
+        assert time.monotonic() < deadline, f"{thread_count(process.pid)} threads, never {count}"
+        time.sleep(0.05)
+
+
 def test_an_interrupt_leaves_no_file(tmp_path: Path) -> None:
     scene = tmp_path / "scene.json"
     endless().save(scene)
-    threads = 40  # more than anything else starts: with them it is rendering
+    # With this many threads it is rendering: numpy starts none, and each has a tile (there are 16), so they stay.
+    threads = 12
     arguments = [scene, "-o", tmp_path / "o.exr", "--threads", threads]
     command = [sys.executable, "-m", "basicrt", "render", *map(str, arguments)]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    while process.poll() is None and thread_count(process.pid) < threads:
-        time.sleep(0.05)
-    process.send_signal(signal.SIGINT)
-    _, message = process.communicate(timeout=60)
+    process = subprocess.Popen(
+        command,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+        # A shell starts what runs in its background with interrupts ignored, and children inherit that.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    try:
+        wait_for_threads(process, threads)
+        process.send_signal(signal.SIGINT)
+        _, message = process.communicate(timeout=60)
+    finally:
+        process.kill()
+        process.wait()
     assert process.returncode == 130
     assert message == "basicrt: interrupted\n"
     assert names(tmp_path) == ["scene.json"]
