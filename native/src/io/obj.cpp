@@ -128,7 +128,6 @@ Mesh read_obj(const std::filesystem::path& path, Report& report) {
   Mesh mesh = builder.finish();
   validate(mesh, name);
   wind_by_normals(mesh);
-  if (mesh.triangles.empty()) report.warn(name + ": has no faces");
   return mesh;
 }
 

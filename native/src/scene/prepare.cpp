@@ -18,22 +18,25 @@ BvhConfig bvh_config(const RenderSettings& settings) {
   return config;
 }
 
-// The shape as it can be traced, or nothing where there is no surface to hit.
-std::optional<Shape> usable_shape(const Shape& shape, const std::string& item, Report& report) {
+// The shape as it can be traced: perhaps an empty mesh.
+Shape usable_shape(const Shape& shape, const std::string& item, Report& report) {
   const auto* mesh = std::get_if<Mesh>(&shape);
-  if (!mesh) return shape;
-  Mesh cleaned = remove_degenerate_triangles(*mesh, item, report);
-  if (!cleaned.triangles.empty()) return cleaned;
-  report.warn(item + ": the mesh has no triangles and is left out");
-  return std::nullopt;
+  return mesh ? Shape(remove_degenerate_triangles(*mesh, item, report)) : shape;
 }
 
-// Copies the shapes and builds a tree for each, taking over from `previous` what has not changed. An empty shape keeps its
-// place, with an empty mesh that is never instanced.
+std::vector<bool> find_instanced_shapes(const Scene& scene) {
+  std::vector<bool> is_instanced(scene.shapes.size());
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) is_instanced[scene.instances[i].shape.index] = true;
+  return is_instanced;
+}
+
+// Copies the shapes and builds a tree for each, taking over from `previous` what has not changed. An empty mesh keeps its
+// place and is never instanced: whoever left out its instances (the reader of scene files) has told of it already.
 std::vector<ShapeTree> prepare_shapes(const Scene& scene, Report& report, PreparedScene& previous,
                                       PreparedScene& prepared) {
   const BvhConfig config = bvh_config(scene.settings);
   const bool is_same_builder = previous.settings.bvh_builder == scene.settings.bvh_builder;
+  const std::vector<bool> is_instanced = find_instanced_shapes(scene);
   std::vector<ShapeTree> previous_trees = previous.tracer.take_trees();
 
   std::vector<ShapeTree> trees;
@@ -46,7 +49,9 @@ std::vector<ShapeTree> prepare_shapes(const Scene& scene, Report& report, Prepar
       continue;
     }
     const std::string item = "shapes[" + std::to_string(i) + "]";
-    prepared.shapes.push_back(usable_shape(scene.shapes[i], item, report).value_or(Mesh{}));
+    prepared.shapes.push_back(usable_shape(scene.shapes[i], item, report));
+    if (is_instanced[i] && is_empty(prepared.shapes.back()))
+      report.warn(item + ": the mesh has no triangles and is left out");
     trees.push_back(build_shape_tree(prepared.shapes.back(), config));
   }
   return trees;

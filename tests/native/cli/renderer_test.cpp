@@ -137,9 +137,10 @@ TEST_F(Renderer, triangles_without_area_are_left_out_with_a_warning) {
 TEST_F(Renderer, an_empty_mesh_is_skipped_with_a_warning) {
   write_scene(R"({"camera": {"position": [0, 0, 4], "look_at": [0, 0, 0], "fov": 40},
     "settings": {"width": 4, "height": 4, "samples": 1},
-    "objects": [{"type": "mesh", "positions": [], "triangles": []}]})");
+    "objects": [{"type": "mesh", "positions": [], "triangles": []}, {"type": "sphere"}]})");
   ASSERT_EQ(run({"scene.json"}), 0) << messages();
   EXPECT_TRUE(messages().starts_with("warning: objects[0]: skipped: the mesh has no triangles\n")) << messages();
+  EXPECT_EQ(messages().find("warning", 1), std::string::npos) << messages();
 }
 
 TEST_F(Renderer, bad_scenes_are_one_error_each) {

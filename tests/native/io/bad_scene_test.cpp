@@ -161,7 +161,7 @@ TEST(BadScene, an_object_without_triangles_is_skipped_with_a_warning) {
       folder.write("scene.json", R"({"objects": [{"type": "mesh", "path": "empty.obj"}, {"type": "sphere"}]})");
   Report report;
   EXPECT_EQ(load_scene(path, report).instances.size(), 1u);
-  EXPECT_EQ(report.warnings().back(), "objects[0]: skipped: the mesh has no triangles");
+  EXPECT_EQ(report.warnings(), std::vector<std::string>{"objects[0]: skipped: the mesh has no triangles"});
 }
 
 TEST(BadScene, a_file_cut_short_anywhere_is_an_error_or_a_scene) {
