@@ -8,18 +8,37 @@
 
 namespace basicrt {
 
-TileAccumulator::TileAccumulator(PixelRect rect, PassLayout layout)
-    : rect_(rect), layout_(layout), pixels_(static_cast<std::size_t>(rect.width) * rect.height) {}
+TileAccumulator::TileAccumulator(PixelRect rect, PassLayout layout, float negative_mass)
+    : rect_(rect),
+      layout_(layout),
+      negative_mass_(negative_mass),
+      pixels_(static_cast<std::size_t>(rect.width) * rect.height),
+      negative_(negative_mass > 0 ? pixels_.size() : 0) {}
 
-void TileAccumulator::add(int x, int y, const PixelSample& sample, float weight) {
-  Pixel& pixel = pixels_[static_cast<std::size_t>(y) * rect_.width + x];
-  pixel.weight += weight;
-  pixel.radiance += sample.radiance * weight;
-  pixel.alpha += sample.alpha * weight;
+void TileAccumulator::add(int x, int y, const PixelSample& sample, bool is_negative) {
+  const std::size_t index = static_cast<std::size_t>(y) * rect_.width + x;
+  Pixel& pixel = pixels_[index];
+  Sums& sums = is_negative ? negative_[index] : pixel.positive;
+  ++sums.count;
+  sums.radiance += sample.radiance;
+  sums.alpha += sample.alpha;
   if (!sample.has_hit) return;
-  pixel.normal += sample.normal * weight;
-  if (!pixel.has_hit) pixel.depth = sample.depth;
-  pixel.has_hit = true;
+  sums.normal += sample.normal;
+  if (pixel.depth == pass_info(Pass::depth).background) pixel.depth = sample.depth;
+}
+
+TileAccumulator::Mean TileAccumulator::mean(std::size_t index) const {
+  const auto mean_of = [](const Sums& sums) {
+    const float scale = sums.count > 0 ? 1 / static_cast<float>(sums.count) : 0;
+    return Mean{sums.radiance * scale, sums.alpha * scale, sums.normal * scale};
+  };
+  const Sums& positive = pixels_[index].positive;
+  if (negative_.empty() || negative_[index].count == 0) return mean_of(positive);
+  const Mean n = mean_of(negative_[index]);
+  if (positive.count == 0) return n;
+  const Mean p = mean_of(positive);
+  return {p.radiance + (p.radiance - n.radiance) * negative_mass_, p.alpha + (p.alpha - n.alpha) * negative_mass_,
+          p.normal + (p.normal - n.normal) * negative_mass_};
 }
 
 Tile TileAccumulator::finish() const {
@@ -27,17 +46,18 @@ Tile TileAccumulator::finish() const {
   float* out = tile.values.data();
   const auto write = [&](Pass pass, auto&& values_of) {
     if (!layout_.has(pass)) return;
-    for (const Pixel& pixel : pixels_)
-      for (const float value : values_of(pixel, pixel.weight != 0 ? 1 / pixel.weight : 0.0f)) *out++ = value;
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+      for (const float value : values_of(i)) *out++ = value;
   };
   // In the order of the table.
-  write(Pass::combined, [](const Pixel& p, float scale) {
-    return std::array{p.radiance.x * scale, p.radiance.y * scale, p.radiance.z * scale, p.alpha * scale};
+  write(Pass::combined, [&](std::size_t i) {
+    const Mean m = mean(i);
+    return std::array{m.radiance.x, m.radiance.y, m.radiance.z, m.alpha};
   });
-  write(Pass::depth,
-        [](const Pixel& p, float) { return std::array{p.has_hit ? p.depth : pass_info(Pass::depth).background}; });
-  write(Pass::normal, [](const Pixel& p, float scale) {
-    return std::array{p.normal.x * scale, p.normal.y * scale, p.normal.z * scale};
+  write(Pass::depth, [&](std::size_t i) { return std::array{pixels_[i].depth}; });
+  write(Pass::normal, [&](std::size_t i) {
+    const Mean m = mean(i);
+    return std::array{m.normal.x, m.normal.y, m.normal.z};
   });
   BASICRT_ASSERT(out == tile.values.data() + tile.values.size());
   return tile;

@@ -39,25 +39,45 @@ struct Tile {
 };
 
 // The sums of one rectangle's samples. Each pixel's samples must be added in order: float sums depend on it.
+//
+// Where the pixel filter has negative lobes, a pixel is (1 + negative_mass) P - negative_mass N, with P and N the means
+// of its positive and its negative samples. With the sums weighted alike and divided by the sum of weights, a pixel of
+// few samples would divide by almost nothing; divided by their number, a flat colour would be noisy. This way it is
+// exact, no pixel is further out than 1 + 2 negative_mass times its samples, and in the limit it is the filter's
+// integral. A pixel with no samples of one sign is the mean of the others.
 class TileAccumulator {
  public:
-  TileAccumulator(PixelRect rect, PassLayout layout);
+  // `negative_mass` is PixelFilter's.
+  TileAccumulator(PixelRect rect, PassLayout layout, float negative_mass = 0);
 
   // `x`, `y` within the rectangle.
-  void add(int x, int y, const PixelSample& sample, float weight);
+  void add(int x, int y, const PixelSample& sample, bool is_negative = false);
   [[nodiscard]] Tile finish() const;
 
  private:
-  struct Pixel {
-    float weight = 0, alpha = 0;
+  // Of the samples of one sign.
+  struct Sums {
+    int count = 0;
+    float alpha = 0;
     Color radiance{0.0f};
-    bool has_hit = false;
-    float depth = 0;
     Vec3f normal{0.0f};
   };
+  struct Pixel {
+    Sums positive;
+    float depth = pass_info(Pass::depth).background;
+  };
+  struct Mean {
+    Color radiance;
+    float alpha;
+    Vec3f normal;
+  };
+  [[nodiscard]] Mean mean(std::size_t index) const;
+
   PixelRect rect_;
   PassLayout layout_;
+  float negative_mass_;
   std::vector<Pixel> pixels_;
+  std::vector<Sums> negative_;  // empty where the filter has no negative lobes
 };
 
 // A whole picture put together from tiles.

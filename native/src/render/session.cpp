@@ -26,7 +26,7 @@ constexpr std::uint32_t batch_size = 512;
 // Where a sample goes: a pixel of the tile, and its weight there.
 struct Place {
   int x, y;
-  float weight;
+  bool is_negative;
 };
 
 PixelRect picture_rect(const RenderSettings& settings) {
@@ -95,7 +95,7 @@ void Session::State::work() {
 // Nothing when it was stopped half-way.
 std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrator& integrator) {
   const RenderSettings& settings = scene.settings;
-  TileAccumulator accumulator(tile, settings.passes);
+  TileAccumulator accumulator(tile, settings.passes, filter.negative_mass());
   CameraPaths paths;
   std::vector<Place> places;
   std::vector<PixelSample> samples(batch_size);
@@ -105,7 +105,7 @@ std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrato
     integrator.render(paths, batch);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       batch[i].radiance *= settings.exposure;
-      accumulator.add(places[i].x, places[i].y, batch[i], places[i].weight);
+      accumulator.add(places[i].x, places[i].y, batch[i], places[i].is_negative);
     }
     samples_done += batch.size();
     paths.clear();
@@ -121,7 +121,7 @@ std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrato
         Sampler sampler(key, static_cast<std::uint32_t>(sample));
         const FilterSample place = filter.sample(sampler.next_2d());
         paths.add(scene.view.ray(center + place.offset), sampler);
-        places.push_back({x, y, place.weight});
+        places.push_back({x, y, place.is_negative});
         if (paths.size() < batch_size) continue;
         flush();
         if (stop) return std::nullopt;

@@ -70,11 +70,13 @@ PixelFilter::PixelFilter(const FilterSettings& settings) : settings_(settings) {
     integral += mass;
     absolute_integral += std::abs(mass);
     running.push_back(absolute_integral);
-    weights_.push_back(mass < 0 ? -1.0f : 1.0f);
+    is_negative_.push_back(mass < 0);
   }
   for (const double mass : running) cdf_.push_back(static_cast<float>(mass / absolute_integral));
   cdf_.back() = 1;
-  for (float& weight : weights_) weight *= static_cast<float>(absolute_integral / integral);
+  // The integral of |filter| in both directions is 1 + 2 negative_mass.
+  const double ratio = absolute_integral / integral;
+  negative_mass_ = static_cast<float>((ratio * ratio - 1) / 2);
 
   std::uint16_t cell = 0;
   for (int i = 0; i < cell_count; ++i) {
@@ -88,14 +90,13 @@ PixelFilter::AxisSample PixelFilter::sample_axis(float u) const {
   while (cdf_[cell + 1] <= u) ++cell;
   const float within_cell = (u - cdf_[cell]) / (cdf_[cell + 1] - cdf_[cell]);
   const float position = (static_cast<float>(cell) + within_cell) * (2.0f / cell_count) - 1;
-  return {position * settings_.radius, weights_[cell]};
+  return {position * settings_.radius, is_negative_[cell]};
 }
 
 FilterSample PixelFilter::sample(Vec2f u) const {
-  if (settings_.kind == FilterKind::box)
-    return {{(2 * u.x - 1) * settings_.radius, (2 * u.y - 1) * settings_.radius}, 1};
+  if (settings_.kind == FilterKind::box) return {{(2 * u.x - 1) * settings_.radius, (2 * u.y - 1) * settings_.radius}};
   const AxisSample x = sample_axis(u.x), y = sample_axis(u.y);
-  return {{x.offset, y.offset}, x.weight * y.weight};
+  return {{x.offset, y.offset}, x.is_negative != y.is_negative};
 }
 
 float PixelFilter::eval(float distance) const { return static_cast<float>(eval_filter(settings_, distance)); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pixel filters, importance sampled: a sample's place is drawn from the filter, so that its weight is one.
+// Pixel filters, importance sampled: a sample's place is drawn from |filter|, so that all samples count the same.
 #pragma once
 
 #include <array>
@@ -28,11 +28,8 @@ struct FilterSettings {
 };
 
 struct FilterSample {
-  Vec2f offset;  // from the pixel's centre, in pixels
-  // One; for a filter with negative lobes (mitchell) plus or minus the integral of |filter| over that of the filter.
-  // Its mean is one, so a pixel is the sum of weight * radiance over the sum of weights, or over the number of
-  // samples: the first has less noise and is right in the limit, the second has no bias at any number of samples.
-  float weight = 1;
+  Vec2f offset;              // from the pixel's centre, in pixels
+  bool is_negative = false;  // where the filter is: such a sample is taken off its pixel
 };
 
 // A filter ready to sample: separable, so one table for both axes.
@@ -42,19 +39,24 @@ class PixelFilter {
 
   // `u` in [0, 1)^2.
   [[nodiscard]] FilterSample sample(Vec2f u) const;
+  // The integral of what is negative of the filter, over that of the filter: above 0 for mitchell alone. A pixel is
+  // (1 + negative_mass) times the mean of its positive samples less negative_mass times the mean of its negative ones.
+  [[nodiscard]] float negative_mass() const { return negative_mass_; }
   // The filter at a distance from the centre along one axis, not normalised; zero past the radius.
   [[nodiscard]] float eval(float distance) const;
 
  private:
   struct AxisSample {
-    float offset, weight;
+    float offset;
+    bool is_negative;
   };
   [[nodiscard]] AxisSample sample_axis(float u) const;
 
   FilterSettings settings_;
+  float negative_mass_ = 0;
   // The axis [-radius, radius] in cells of like width; empty for box.
   std::vector<float> cdf_;            // of |filter|, where the cells begin and end
-  std::vector<float> weights_;        // of a sample in each cell
+  std::vector<bool> is_negative_;     // the filter in each cell
   std::vector<std::uint16_t> guide_;  // guide_[i] is the cell where the cdf reaches i / guide_.size()
 };
 

@@ -111,8 +111,8 @@ TEST(PixelFilter, offsets_are_a_continuous_function_of_the_numbers) {
   }
 }
 
-// A pixel's value for radiance exp(x) is the filter's integral against it, whatever the signs of the weights.
-TEST(PixelFilter, weighted_means_reproduce_integrals_and_weights_have_mean_one) {
+// A pixel's value for radiance exp(x + y) is the filter's integral against it, whatever the signs of the samples.
+TEST(PixelFilter, means_of_both_signs_reproduce_integrals) {
   for (const FilterSettings& settings : all_filters) {
     const PixelFilter filter(settings);
     double expected = 0, mass = 0;
@@ -124,29 +124,37 @@ TEST(PixelFilter, weighted_means_reproduce_integrals_and_weights_have_mean_one) 
     expected *= expected / (mass * mass);  // along y, too
 
     Rng rng(5);
+    struct Sum {
+      double value = 0, square = 0;
+      int count = 0;
+      [[nodiscard]] double mean() const { return count > 0 ? value / count : 0; }
+      [[nodiscard]] double variance() const { return count > 0 ? (square / count - mean() * mean()) / count : 0; }
+    } sums[2];
     const int count = 1 << 20;
-    double sum = 0, weights = 0, square = 0;
     for (int i = 0; i < count; ++i) {
       const FilterSample sample = filter.sample(test::next_unit_vec2(rng));
-      const double value = sample.weight * std::exp(sample.offset.x + sample.offset.y);
-      sum += value;
-      square += value * value;
-      weights += sample.weight;
+      const double value = std::exp(sample.offset.x + sample.offset.y);
+      Sum& sum = sums[sample.is_negative ? 1 : 0];
+      sum.value += value;
+      sum.square += value * value;
+      ++sum.count;
     }
-    const double mean = sum / count, deviation = std::sqrt((square / count - mean * mean) / count);
-    EXPECT_NEAR(mean, expected, 4 * deviation) << name(settings);
-    EXPECT_NEAR(weights / count, 1, 4e-3) << name(settings);
-    EXPECT_NEAR(sum / weights, expected, 6 * deviation + 1e-3) << name(settings);
+    const double n = filter.negative_mass();
+    const double deviation = std::sqrt((1 + n) * (1 + n) * sums[0].variance() + n * n * sums[1].variance());
+    EXPECT_NEAR((1 + n) * sums[0].mean() - n * sums[1].mean(), expected, 4 * deviation + 1e-4) << name(settings);
+    // As many of each sign as there is mass of it.
+    EXPECT_NEAR(static_cast<double>(sums[1].count) / count, n / (1 + 2 * n), 2e-3) << name(settings);
   }
 }
 
-TEST(PixelFilter, only_mitchell_has_negative_weights) {
+TEST(PixelFilter, only_mitchell_has_negative_samples) {
   for (const FilterSettings& settings : all_filters) {
     const PixelFilter filter(settings);
     Rng rng(3);
     bool has_negative = false;
-    for (int i = 0; i < 10000; ++i) has_negative |= filter.sample(test::next_unit_vec2(rng)).weight < 0;
+    for (int i = 0; i < 10000; ++i) has_negative |= filter.sample(test::next_unit_vec2(rng)).is_negative;
     EXPECT_EQ(has_negative, settings.kind == FilterKind::mitchell) << name(settings);
+    EXPECT_EQ(filter.negative_mass() > 0, has_negative) << name(settings);
   }
 }
 
