@@ -2,8 +2,11 @@
 // Four floats and two doubles at a time: SSE2, which every x86-64 has, or plain C++. Both give the same numbers.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <utility>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -21,13 +24,33 @@ struct Mask4 {
   [[nodiscard]] int bits() const { return _mm_movemask_ps(lanes); }  // bit i for lane i
 };
 
+struct Int4 {
+  __m128i lanes;
+
+  static Int4 all(int x) { return {_mm_set1_epi32(x)}; }
+  static Int4 load(const std::int32_t* aligned) { return {_mm_load_si128(reinterpret_cast<const __m128i*>(aligned))}; }
+  void store(std::int32_t* aligned) const { _mm_store_si128(reinterpret_cast<__m128i*>(aligned), lanes); }
+  [[nodiscard]] std::array<std::uint32_t, 3> first_three() const {
+    const auto two = static_cast<std::uint64_t>(_mm_cvtsi128_si64(lanes));
+    const auto third = static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_unpackhi_epi32(lanes, lanes)));
+    return {static_cast<std::uint32_t>(two), static_cast<std::uint32_t>(two >> 32), third};
+  }
+  friend Int4 operator+(Int4 a, Int4 b) { return {_mm_add_epi32(a.lanes, b.lanes)}; }
+  template <int bits>
+  [[nodiscard]] Int4 shifted_right() const {  // rounds down
+    return {_mm_srai_epi32(lanes, bits)};
+  }
+};
+
 struct Float4 {
   __m128 lanes;
 
   static Float4 load(const float* aligned) { return {_mm_load_ps(aligned)}; }
   static Float4 all(float x) { return {_mm_set1_ps(x)}; }
   static Float4 of(float x, float y, float z, float w) { return {_mm_setr_ps(x, y, z, w)}; }
+  static Float4 from(Int4 a) { return {_mm_cvtepi32_ps(a.lanes)}; }
   void store(float* aligned) const { _mm_store_ps(aligned, lanes); }
+  [[nodiscard]] Int4 truncated() const { return {_mm_cvttps_epi32(lanes)}; }  // of numbers that an int holds
   friend Float4 operator+(Float4 a, Float4 b) { return {_mm_add_ps(a.lanes, b.lanes)}; }
   friend Float4 operator-(Float4 a, Float4 b) { return {_mm_sub_ps(a.lanes, b.lanes)}; }
   friend Float4 operator/(Float4 a, Float4 b) { return {_mm_div_ps(a.lanes, b.lanes)}; }
@@ -43,12 +66,21 @@ struct Float4 {
   friend Float4 select(Mask4 mask, Float4 where_set, Float4 elsewhere) {
     return {_mm_or_ps(_mm_and_ps(mask.lanes, where_set.lanes), _mm_andnot_ps(mask.lanes, elsewhere.lanes))};
   }
+  friend Mask4 operator<(Float4 a, Float4 b) { return {_mm_cmplt_ps(a.lanes, b.lanes)}; }
   friend Mask4 operator<=(Float4 a, Float4 b) { return {_mm_cmple_ps(a.lanes, b.lanes)}; }
   friend Mask4 operator==(Float4 a, Float4 b) { return {_mm_cmpeq_ps(a.lanes, b.lanes)}; }
   [[nodiscard]] int sign_bits() const { return _mm_movemask_ps(lanes); }  // bit i where lane i is negative, or -0
   template <int lane>
   [[nodiscard]] Float4 broadcast() const {
     return {_mm_shuffle_ps(lanes, lanes, _MM_SHUFFLE(lane, lane, lane, lane))};
+  }
+  // Lane i of the three becomes lanes 0 to 2 of the i-th.
+  friend void transpose(Float4& a, Float4& b, Float4& c) {
+    const __m128 ab = _mm_unpacklo_ps(a.lanes, b.lanes), ab_z = _mm_unpackhi_ps(a.lanes, b.lanes);
+    const __m128 cc = _mm_unpacklo_ps(c.lanes, c.lanes), cc_z = _mm_unpackhi_ps(c.lanes, c.lanes);
+    a.lanes = _mm_movelh_ps(ab, cc);
+    b.lanes = _mm_movehl_ps(cc, ab);
+    c.lanes = _mm_movelh_ps(ab_z, cc_z);
   }
 };
 
@@ -89,14 +121,44 @@ struct Mask4 {
   [[nodiscard]] int bits() const { return set; }
 };
 
+struct alignas(16) Int4 {
+  std::int32_t lanes[4];
+
+  static Int4 all(int x) { return {{x, x, x, x}}; }
+  static Int4 load(const std::int32_t* p) { return {{p[0], p[1], p[2], p[3]}}; }
+  void store(std::int32_t* p) const {
+    for (int i = 0; i < 4; ++i) p[i] = lanes[i];
+  }
+  [[nodiscard]] std::array<std::uint32_t, 3> first_three() const {
+    return {static_cast<std::uint32_t>(lanes[0]), static_cast<std::uint32_t>(lanes[1]),
+            static_cast<std::uint32_t>(lanes[2])};
+  }
+  friend Int4 operator+(Int4 a, Int4 b) {
+    for (int i = 0; i < 4; ++i) a.lanes[i] += b.lanes[i];
+    return a;
+  }
+  template <int bits>
+  [[nodiscard]] Int4 shifted_right() const {  // rounds down
+    return {{lanes[0] >> bits, lanes[1] >> bits, lanes[2] >> bits, lanes[3] >> bits}};
+  }
+};
+
 struct alignas(16) Float4 {
   float lanes[4];
 
   static Float4 load(const float* p) { return {{p[0], p[1], p[2], p[3]}}; }
   static Float4 all(float x) { return {{x, x, x, x}}; }
   static Float4 of(float x, float y, float z, float w) { return {{x, y, z, w}}; }
+  static Float4 from(Int4 a) {
+    return {{static_cast<float>(a.lanes[0]), static_cast<float>(a.lanes[1]), static_cast<float>(a.lanes[2]),
+             static_cast<float>(a.lanes[3])}};
+  }
   void store(float* p) const {
     for (int i = 0; i < 4; ++i) p[i] = lanes[i];
+  }
+  [[nodiscard]] Int4 truncated() const {  // of numbers that an int holds
+    return {{static_cast<std::int32_t>(lanes[0]), static_cast<std::int32_t>(lanes[1]),
+             static_cast<std::int32_t>(lanes[2]), static_cast<std::int32_t>(lanes[3])}};
   }
   template <class Operation>
   static Float4 each(Float4 a, Float4 b, Operation operation) {
@@ -130,6 +192,7 @@ struct alignas(16) Float4 {
       if (mask.set >> i & 1) elsewhere.lanes[i] = where_set.lanes[i];
     return elsewhere;
   }
+  friend Mask4 operator<(Float4 a, Float4 b) { return where(a, b, std::less<float>()); }
   friend Mask4 operator<=(Float4 a, Float4 b) { return where(a, b, std::less_equal<float>()); }
   friend Mask4 operator==(Float4 a, Float4 b) { return where(a, b, std::equal_to<float>()); }
   [[nodiscard]] int sign_bits() const {
@@ -138,6 +201,12 @@ struct alignas(16) Float4 {
   template <int lane>
   [[nodiscard]] Float4 broadcast() const {
     return all(lanes[lane]);
+  }
+  // Lane i of the three becomes lanes 0 to 2 of the i-th.
+  friend void transpose(Float4& a, Float4& b, Float4& c) {
+    std::swap(a.lanes[1], b.lanes[0]);
+    std::swap(a.lanes[2], c.lanes[0]);
+    std::swap(b.lanes[2], c.lanes[1]);
   }
 };
 

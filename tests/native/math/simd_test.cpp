@@ -48,6 +48,7 @@ TEST(Simd, four_floats_compute_as_one_does) {
         expect_same(lane(abs(a), i), std::fabs(x));
         expect_same(lane(copysign(a, b), i), std::copysign(x, y));
         expect_same(lane(select(a <= b, a, b), i), x <= y ? x : y);
+        EXPECT_EQ((a < b).bits() >> i & 1, x < y);
         EXPECT_EQ((a <= b).bits() >> i & 1, x <= y);
         EXPECT_EQ((a == b).bits() >> i & 1, x == y);
       }
@@ -64,6 +65,34 @@ TEST(Simd, lanes_keep_their_places) {
   EXPECT_EQ(lane(a.broadcast<2>(), 0), 3);
   alignas(16) const float values[4] = {5, 6, 7, 8};
   EXPECT_EQ(lane(Float4::load(values), 2), 7);
+}
+
+TEST(Simd, three_vectors_are_transposed) {
+  Float4 a = Float4::of(1, 2, 3, 4), b = Float4::of(5, 6, 7, 8), c = Float4::of(9, 10, 11, 12);
+  transpose(a, b, c);
+  const float expected[3][3] = {{1, 5, 9}, {2, 6, 10}, {3, 7, 11}};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(lane(a, i), expected[0][i]);
+    EXPECT_EQ(lane(b, i), expected[1][i]);
+    EXPECT_EQ(lane(c, i), expected[2][i]);
+  }
+}
+
+TEST(Simd, four_integers_compute_as_one_does) {
+  alignas(16) const std::int32_t values[4] = {7, -7, 1 << 20, -(1 << 20)};
+  alignas(16) std::int32_t sum[4], quotient[4], truncated[4];
+  const Int4 a = Int4::load(values);
+  (a + Int4::all(3)).store(sum);
+  a.shifted_right<2>().store(quotient);
+  (Float4::from(a) * Float4::all(0.3f)).truncated().store(truncated);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(sum[i], values[i] + 3);
+    EXPECT_EQ(quotient[i], static_cast<std::int32_t>(std::floor(values[i] / 4.0)));
+    EXPECT_EQ(truncated[i], static_cast<std::int32_t>(static_cast<float>(values[i]) * 0.3f));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(a.first_three()[i], static_cast<std::uint32_t>(values[i]));
+  }
 }
 
 TEST(Simd, two_doubles_compute_as_one_does) {
