@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Chooses the builder, and looks for faults in a tree.
+// Looks for faults in a tree.
 #include "bvh/bvh.h"
 
-#include <limits>
-
-#include "base/assert.h"
-#include "bvh/builders.h"
+#include <string_view>
 
 namespace basicrt {
 namespace {
@@ -74,13 +71,6 @@ class FaultFinder {
 };
 
 }  // namespace
-
-Bvh build_bvh(std::span<const Bounds3f> bounds, const BvhConfig& config) {
-  // So that the number of nodes fits 32 bits too.
-  BASICRT_ASSERT(bounds.size() <= std::numeric_limits<std::uint32_t>::max() / 2);
-  if (bounds.empty()) return {};
-  return config.builder == BvhBuilder::median ? build_median(bounds, config) : build_binned_sah(bounds, config);
-}
 
 std::string find_bvh_fault(const Bvh& bvh, std::span<const Bounds3f> bounds) { return FaultFinder(bvh, bounds).find(); }
 

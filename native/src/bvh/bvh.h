@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tree: one array of nodes over the bounds of primitives, and the builders that make it.
+// The binary tree of the reference builder, and what can be said about how trees are built.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 namespace basicrt {
 
 enum class BvhBuilder : std::uint8_t {
-  median,      // the reference: axis of largest extent, median split
-  binned_sah,  // surface area heuristic over bins
+  median,      // the reference: binary, axis of largest extent, median split; then collapsed
+  binned_sah,  // surface area heuristic over bins, straight into nodes of eight
 };
 
 struct BvhConfig {
   BvhBuilder builder = BvhBuilder::binned_sah;
-  int max_leaf_size = 4;  // binned_sah: no leaf holds more
-  int max_depth = 64;     // median: a node this deep becomes a leaf
-  int bins = 16;          // binned_sah
+  int max_depth = 64;  // median: a node this deep becomes a leaf
+  int leaf_size = 4;   // triangles in a block: fewer take more memory and fewer tests
+  int threads = 0;     // 0: one for each processor; the tree is the same for any number
 };
 
 struct BvhNode {
@@ -38,8 +38,8 @@ struct Bvh {
   std::vector<std::uint32_t> primitives;
 };
 
-// A tree over `bounds`, in which every primitive is in exactly one leaf.
-[[nodiscard]] Bvh build_bvh(std::span<const Bounds3f> bounds, const BvhConfig& config);
+// Halves the primitives along the longest axis of their bounds. A leaf holds two, or more where it is at `max_depth`.
+[[nodiscard]] Bvh build_median_bvh(std::span<const Bounds3f> bounds, int max_depth);
 
 // What is wrong with the tree, or an empty string: every primitive in exactly one leaf, children inside parents.
 [[nodiscard]] std::string find_bvh_fault(const Bvh& bvh, std::span<const Bounds3f> bounds);

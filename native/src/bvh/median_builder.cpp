@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The reference builder: halves the primitives along the longest axis of their bounds.
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
-#include "bvh/builders.h"
+#include "base/assert.h"
+#include "bvh/bvh.h"
 
 namespace basicrt {
 namespace {
 
+// What primitives are sorted by. An empty box sorts as if at the origin.
+Vec3f centroid(const Bounds3f& box) { return box.is_empty() ? Vec3f(0) : box.center(); }
+
+std::size_t largest_axis(Vec3f extent) {
+  if (extent.x >= extent.y && extent.x >= extent.z) return 0;
+  return extent.y >= extent.z ? 1 : 2;
+}
+
 class MedianBuilder {
  public:
-  MedianBuilder(std::span<const Bounds3f> bounds, const BvhConfig& config) : bounds_(bounds), config_(config) {
+  MedianBuilder(std::span<const Bounds3f> bounds, int max_depth) : bounds_(bounds), max_depth_(max_depth) {
     bvh_.nodes.reserve(bounds.size());
     bvh_.primitives.resize(bounds.size());
     std::iota(bvh_.primitives.begin(), bvh_.primitives.end(), 0u);
@@ -27,7 +37,7 @@ class MedianBuilder {
     const std::size_t index = bvh_.nodes.size();
     BvhNode node;
     for (std::uint32_t i = begin; i < end; ++i) node.bounds.extend(bounds_[bvh_.primitives[i]]);
-    const bool is_leaf = end - begin <= 2 || depth >= config_.max_depth;
+    const bool is_leaf = end - begin <= 2 || depth >= max_depth_;
     if (is_leaf) {
       node.right_or_first = begin;
       node.count = end - begin;
@@ -52,14 +62,17 @@ class MedianBuilder {
   }
 
   std::span<const Bounds3f> bounds_;
-  const BvhConfig& config_;
+  int max_depth_;
   Bvh bvh_;
 };
 
 }  // namespace
 
-Bvh build_median(std::span<const Bounds3f> bounds, const BvhConfig& config) {
-  return MedianBuilder(bounds, config).build();
+Bvh build_median_bvh(std::span<const Bounds3f> bounds, int max_depth) {
+  // So that the number of nodes fits 32 bits too.
+  BASICRT_ASSERT(bounds.size() <= std::numeric_limits<std::uint32_t>::max() / 2);
+  if (bounds.empty()) return {};
+  return MedianBuilder(bounds, max_depth).build();
 }
 
 }  // namespace basicrt

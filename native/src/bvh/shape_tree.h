@@ -3,19 +3,12 @@
 #pragma once
 
 #include <variant>
-#include <vector>
 
 #include "bvh/bvh.h"
-#include "bvh/triangle_pair.h"
-#include "bvh/wide_bvh.h"
+#include "bvh/mesh_tree.h"
 #include "geometry/shape.h"
 
 namespace basicrt {
-
-struct MeshTree {
-  WideBvh bvh;  // its leaves' items are pairs
-  std::vector<TrianglePair> pairs;
-};
 
 // Keeps no pointer to the shape it was built from.
 struct ShapeTree {

@@ -1,70 +1,76 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Walks the two levels of trees with small batches of rays. Boxes are tested in single precision and never lose a hit;
-// the hits themselves are computed in double precision in the object's space.
+// Hands batches of rays to the kernel, and does for it what needs double precision.
 #include "bvh/tracer.h"
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <limits>
-#include <tuple>
+#include <type_traits>
 
 #include "base/assert.h"
-#include "bvh/walk.h"
+#include "base/overloaded.h"
+#include "bvh/kernels/chosen_kernel.h"
+#include "bvh/kernels/scratch.h"
+#include "bvh/precise_walk.h"
 #include "geometry/precise_ray.h"
-#include "geometry/sphere.h"
+#include "geometry/triangle.h"
 #include "math/next_float.h"
 
 namespace basicrt {
 namespace {
 
-// Looks for the nearest hit.
-struct NearestQuery {
-  using Result = Hit;
+static_assert(sizeof(Ray) == sizeof(KernelRay) && offsetof(Ray, direction) == offsetof(KernelRay, direction) &&
+              offsetof(Ray, kinds) == offsetof(KernelRay, kinds) &&
+              offsetof(Ray, from_instance) == offsetof(KernelRay, from_instance) && std::is_trivially_copyable_v<Ray>);
+static_assert(sizeof(Hit) == sizeof(KernelHit) && offsetof(Hit, instance) == offsetof(KernelHit, instance) &&
+              offsetof(Hit, u) == offsetof(KernelHit, u) && std::is_trivially_copyable_v<Hit>);
 
-  double t_max;  // nothing beyond is of interest
-  double u, v;
-  std::uint32_t instance, primitive;
-
-  void start(double ray_t_max) {
-    t_max = ray_t_max;
-    instance = primitive = Hit::none;
-  }
-  // Of equal distances the lower numbers win, so that the answer doesn't depend on the order of the visits.
-  void add(double hit_t, double hit_u, double hit_v, std::uint32_t hit_instance, std::uint32_t hit_primitive) {
-    if (std::tie(hit_t, hit_instance, hit_primitive) >= std::tie(t_max, instance, primitive)) return;
-    t_max = hit_t, u = hit_u, v = hit_v;
-    instance = hit_instance, primitive = hit_primitive;
-  }
-  [[nodiscard]] Hit result() const {
-    if (instance == Hit::none) return {};
-    return {static_cast<float>(t_max), instance, primitive, static_cast<float>(u), static_cast<float>(v)};
-  }
-};
-
-// Looks for any hit, after which nothing is near enough to be of interest.
-struct AnyQuery {
-  using Result = std::uint8_t;
-  static constexpr double found = -std::numeric_limits<double>::infinity();
-
-  double t_max;
-
-  void start(double ray_t_max) { t_max = ray_t_max; }
-  void add(double, double, double, std::uint32_t, std::uint32_t) { t_max = found; }
-  [[nodiscard]] std::uint8_t result() const { return t_max == found; }
-};
-
-bool is_traceable(const Ray& ray) {
-  const Float4 origin = Float4::of(ray.origin.x, ray.origin.y, ray.origin.z, 0);
-  const Float4 direction = Float4::of(ray.direction.x, ray.direction.y, ray.direction.z, 0);
-  const Float4 largest = Float4::all(std::numeric_limits<float>::max());
-  const Mask4 is_finite_lane = (abs(origin) <= largest) & (abs(direction) <= largest);
-  const Mask4 is_zero_lane = direction == Float4::all(0);
-  return (is_finite_lane.bits() == 15) & (is_zero_lane.bits() != 15) & (ray.t_min <= ray.t_max);
+KernelInstance::Space space_of(const TransformD& world_to_object) {
+  TransformD linear = world_to_object;
+  for (auto& row : linear.rows) row[3] = 0;
+  if (linear != TransformD{}) return KernelInstance::Space::transformed;
+  return world_to_object == TransformD{} ? KernelInstance::Space::world : KernelInstance::Space::translated;
 }
 
-bool is_translation(const TransformD& transform) {
-  TransformD linear = transform;
-  for (auto& row : linear.rows) row[3] = 0;
-  return linear == TransformD{};
+// Beyond, products of coordinates may overflow or underflow single precision.
+bool is_usable_for_kernels(float reach) { return reach >= 0x1p-40f && reach <= 0x1p40f; }
+
+KernelInstance kernel_instance(const ShapeTree& tree, const TracedInstance& instance) {
+  KernelInstance result{};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column)
+      result.world_to_object[row][column] = instance.world_to_object.rows[row][column];
+  result.root = result.first_merged = no_reference;
+  result.visibility = instance.visibility;
+  result.space = space_of(instance.world_to_object);
+  const auto* mesh = std::get_if<MeshTree>(&tree.geometry);
+  result.reach = max_component(max(abs(tree.bounds.lower), abs(tree.bounds.upper)));
+  if (mesh == nullptr || !is_usable_for_kernels(result.reach)) return result;
+  result.nodes = mesh->tree.nodes.data();
+  result.blocks = mesh->blocks.data();
+  result.root = mesh->tree.root;
+  return result;
+}
+
+// Entering an instance costs as much as several nodes: meshes of fewer triangles, used once and seen by every ray, share a tree instead.
+constexpr std::size_t smallest_own_tree = 256;
+
+// The mesh's triangles in world space, by their numbers.
+std::vector<std::array<Vec3f, 3>> world_triangles(const MeshTree& mesh, const TransformD& object_to_world) {
+  std::vector<std::array<Vec3f, 3>> triangles;
+  for (const TriangleBlock& block : mesh.blocks)
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      const std::uint32_t primitive = block.primitives[lane];
+      if (triangles.size() <= primitive) triangles.resize(primitive + 1);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& corner = block.corners[i];
+        const Vec3d position{corner[0][lane], corner[1][lane], corner[2][lane]};
+        triangles[primitive][i] = Vec3f(object_to_world.point(position));
+      }
+    }
+  return triangles;
 }
 
 // The box of an instance in the world, with room for what its two transforms don't agree on.
@@ -87,167 +93,111 @@ Bounds3f world_bounds(const Bounds3f& local, const TracedInstance& instance) {
   return result;
 }
 
-// Takes a group of rays to the triangles of a mesh.
-template <class Query>
-struct MeshVisitor {
-  const MeshTree& tree;
-  const PreciseRay* rays;
-  std::uint32_t instance;
-  Query* queries;
-
-  [[nodiscard]] float t_max(RayIndex ray) const { return static_cast<float>(queries[ray].t_max); }
-  void visit_leaf(std::uint32_t first, std::uint32_t count, std::span<const RayIndex> group) {
-    for (const TrianglePair& pair : std::span(tree.pairs).subspan(first, count)) {
-      const PreparedPair prepared(pair);
-      for (const RayIndex ray : group) {
-        const PairHits hits = intersect_pair(prepared, rays[ray], queries[ray].t_max);
-        if (hits.bits != 0) add(queries[ray], hits, pair);
-      }
-    }
-  }
-  void add(Query& query, const PairHits& hits, const TrianglePair& pair) {
-    alignas(16) double t[2], u[2], v[2];
-    hits.t.store(t);
-    hits.u.store(u);
-    hits.v.store(v);
-    for (int lane = 0; lane < 2; ++lane)
-      if (hits.bits >> lane & 1) query.add(t[lane], u[lane], v[lane], instance, pair.primitive[lane]);
-  }
-};
-
-// Rays and queries are addressed by the numbers in the group.
-template <class Query>
-void intersect_geometry(const MeshTree& tree, const PreciseRay* rays, std::span<const RayIndex> group,
-                        std::uint32_t instance, Query* queries) {
-  MeshVisitor<Query> visitor{tree, rays, instance, queries};
-  WideBoxRay box_rays[batch_size];
-  // The box of a tree that is a single leaf was tested among the instances.
-  if (!tree.bvh.nodes.empty())
-    for (const RayIndex ray : group)
-      box_rays[ray].set(make_box_ray(rays[ray].origin, rays[ray].direction), static_cast<float>(rays[ray].t_min));
-  GroupWalk(tree.bvh, box_rays, visitor).visit(tree.bvh.root, group);
+TransformD world_to_object(const KernelInstance& instance) {
+  TransformD result;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column) result.rows[row][column] = instance.world_to_object[row][column];
+  return result;
 }
 
-template <class Query>
-void intersect_geometry(const Sphere& sphere, const PreciseRay* rays, std::span<const RayIndex> group,
-                        std::uint32_t instance, Query* queries) {
-  for (const RayIndex index : group) {
-    PreciseRay ray = rays[index];
-    ray.t_max = queries[index].t_max;
-    const auto t = intersect_sphere(ray, sphere);
-    if (!t) continue;
-    const Vec2d uv = sphere_uv(ray.origin + ray.direction * *t - Vec3d(sphere.center));
-    queries[index].add(*t, uv.x, uv.y, instance, 0);
-  }
+double plane_distance(const KernelInstance& instance, const KernelRay& ray, const float (&corners)[3][3]) {
+  const auto corner = [&](int i) { return Vec3f{corners[i][0], corners[i][1], corners[i][2]}; };
+  const PreciseRay local = transform_ray(world_to_object(instance), std::bit_cast<Ray>(ray));
+  return intersect_triangle_plane(local, corner(0), corner(1), corner(2)).t;
 }
 
 }  // namespace
 
-Tracer::Tracer() = default;
+Tracer::Tracer() : kernel_(&chosen_kernel()) {}
 Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
 Tracer::Tracer(std::vector<ShapeTree> trees, std::vector<TracedInstance> instances, const BvhConfig& config)
-    : trees_(std::move(trees)) {
+    : kernel_(&chosen_kernel()), trees_(std::move(trees)), instances_(std::move(instances)) {
   std::vector<Bounds3f> boxes;
-  std::vector<std::uint32_t> indices;
-  for (std::uint32_t i = 0; i < instances.size(); ++i) {
-    BASICRT_ASSERT(instances[i].shape < trees_.size());
-    const Bounds3f box = world_bounds(trees_[instances[i].shape].bounds, instances[i]);
-    if (box.is_empty()) continue;
-    boxes.push_back(box);
-    indices.push_back(i);
+  for (const TracedInstance& instance : instances_) {
+    BASICRT_ASSERT(instance.shape < trees_.size());
+    const ShapeTree& tree = trees_[instance.shape];
+    boxes.push_back(world_bounds(tree.bounds, instance));
+    bounds_.extend(boxes.back());
+    kernel_instances_.push_back(kernel_instance(tree, instance));
   }
-  BvhConfig instance_config = config;
-  instance_config.max_leaf_size = 1;
-  const Bvh bvh = build_bvh(boxes, instance_config);
-  instance_bvh_ = WideBvhBuilder(bvh).build([&](std::span<const std::uint32_t> leaf) {
-    const auto first = static_cast<std::uint32_t>(placed_.size());
-    for (const std::uint32_t box : leaf) {
-      const TracedInstance& instance = instances[indices[box]];
-      placed_.push_back({.world_to_object = instance.world_to_object,
-                         .shape = instance.shape,
-                         .index = indices[box],
-                         .visibility = instance.visibility,
-                         .is_translation = is_translation(instance.world_to_object)});
-    }
-    return WideReference{first, static_cast<std::uint32_t>(leaf.size())};
-  });
+  merge_small_meshes(config);
+  for (std::size_t i = 0; i < instances_.size(); ++i)
+    if (kernel_instances_[i].first_merged != no_reference) boxes[i] = Bounds3f{};
+  boxes.push_back(merged_.tree.bounds);
+  instance_tree_ = build_instance_tree(boxes, config);
 }
 
-// Takes a group of rays to the instances.
-template <class Query>
-struct Tracer::InstanceVisitor {
-  const Tracer& tracer;
-  const Ray* rays;
-  Query* queries;
-  PreciseRay local_rays[batch_size];  // in the space of the instance being visited, those that see it
-
-  InstanceVisitor(const Tracer& the_tracer, const Ray* the_rays, Query* the_queries)
-      : tracer(the_tracer), rays(the_rays), queries(the_queries) {}
-
-  [[nodiscard]] float t_max(RayIndex ray) const { return static_cast<float>(queries[ray].t_max); }
-  void visit_leaf(std::uint32_t first, std::uint32_t count, std::span<const RayIndex> group) {
-    for (const PlacedInstance& instance : std::span(tracer.placed_).subspan(first, count)) visit(instance, group);
-  }
-  void visit(const PlacedInstance& instance, std::span<const RayIndex> group) {
-    RayIndex seeing[batch_size];
-    std::size_t count = 0;
-    for (const RayIndex ray : group) {
-      seeing[count] = ray;
-      count += (rays[ray].kinds & instance.visibility) != 0;
+void Tracer::merge_small_meshes(const BvhConfig& config) {
+  std::vector<std::uint32_t> use_counts(trees_.size());
+  for (const TracedInstance& instance : instances_) ++use_counts[instance.shape];
+  Mesh merged;
+  for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+    const TracedInstance& instance = instances_[i];
+    const auto* mesh = std::get_if<MeshTree>(&trees_[instance.shape].geometry);
+    const bool is_small = mesh != nullptr && 4 * mesh->blocks.size() < smallest_own_tree;
+    if (!is_small || use_counts[instance.shape] > 1 || instance.visibility != ray_all ||
+        kernel_instances_[i].root == no_reference)
+      continue;
+    kernel_instances_[i].first_merged = static_cast<std::uint32_t>(merged.triangles.size());
+    for (const auto& corners : world_triangles(*mesh, instance.object_to_world)) {
+      const auto first = static_cast<std::uint32_t>(merged.positions.size());
+      const auto primitive = static_cast<std::uint32_t>(merged.triangles.size()) - kernel_instances_[i].first_merged;
+      merged.positions.insert(merged.positions.end(), corners.begin(), corners.end());
+      merged.triangles.push_back({first, first + 1, first + 2});
+      merged_owners_.push_back({i, primitive});
     }
-    const std::span<const RayIndex> local_group(seeing, count);
-    if (instance.is_translation) {
-      const Vec3d translation = instance.world_to_object.column(3);
-      for (const RayIndex ray : local_group) local_rays[ray] = translate_ray(translation, rays[ray]);
-    } else {
-      for (const RayIndex ray : local_group) local_rays[ray] = transform_ray(instance.world_to_object, rays[ray]);
-    }
-    std::visit(
-        [&](const auto& geometry) { intersect_geometry(geometry, local_rays, local_group, instance.index, queries); },
-        tracer.trees_[instance.shape].geometry);
   }
-};
-
-template <class Query>
-void Tracer::trace(std::span<const Ray> rays, std::span<typename Query::Result> results) const {
-  BASICRT_ASSERT(rays.size() == results.size());
-  for (std::size_t first = 0; first < rays.size(); first += batch_size) {
-    const std::size_t count = std::min(batch_size, rays.size() - first);
-    trace_batch<Query>(rays.subspan(first, count), results.subspan(first, count));
-  }
+  merged_ = build_mesh_tree(merged, {.builder = config.builder, .leaf_size = 2});
+  const ShapeTree tree{.geometry = merged_, .bounds = merged_.tree.bounds};
+  KernelInstance all = kernel_instance(tree, TracedInstance{});
+  all.nodes = merged_.tree.nodes.data();
+  all.blocks = merged_.blocks.data();
+  all.owners = merged_owners_.data();
+  kernel_instances_.push_back(all);
 }
 
-template <class Query>
-void Tracer::trace_batch(std::span<const Ray> rays, std::span<typename Query::Result> results) const {
-  WideBoxRay box_rays[batch_size];
-  Query queries[batch_size];
-  RayIndex group[batch_size];
-  std::size_t group_size = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Ray& ray = rays[i];
-    // Boxes that are never entered lie at infinity, which must be out of reach.
-    queries[i].start(std::min(ray.t_max, std::numeric_limits<float>::max()));
-    box_rays[i].set(make_box_ray(ray.origin, ray.direction), std::max(0.0f, ray.t_min));
-    group[group_size] = static_cast<RayIndex>(i);
-    group_size += is_traceable(ray);
-  }
-  if (group_size > 0 && !instance_bvh_.is_empty()) {
-    InstanceVisitor<Query> visitor(*this, rays.data(), queries);
-    GroupWalk(instance_bvh_, box_rays, visitor).visit(instance_bvh_.root, std::span<const RayIndex>(group, group_size));
-  }
-  for (std::size_t i = 0; i < rays.size(); ++i) results[i] = queries[i].result();
+bool Tracer::intersect_precisely(std::uint32_t instance, const Ray& ray, Hit& hit) const {
+  const TracedInstance& placed = instances_[instance];
+  PreciseRay local = transform_ray(placed.world_to_object, ray);
+  local.t_max = std::min(local.t_max, static_cast<double>(hit.t));
+  const auto found =
+      std::visit(Overloaded{[&](const MeshTree& mesh) { return intersect_mesh_precisely(mesh, local); },
+                            [&](const Sphere& sphere) { return intersect_sphere_precisely(sphere, local); }},
+                 trees_[placed.shape].geometry);
+  if (!found) return false;
+  hit = *found;
+  hit.instance = instance;
+  return true;
 }
 
-void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const { trace<NearestQuery>(rays, hits); }
+KernelScene Tracer::kernel_scene() const {
+  return {.nodes = instance_tree_.nodes.data(),
+          .root = instance_tree_.root,
+          .instances = kernel_instances_.data(),
+          .owner = this,
+          .intersect_precisely =
+              [](const void* owner, std::uint32_t instance, const KernelRay& ray, KernelHit& hit) {
+                auto nearest = std::bit_cast<Hit>(hit);
+                const bool is_hit =
+                    static_cast<const Tracer*>(owner)->intersect_precisely(instance, std::bit_cast<Ray>(ray), nearest);
+                hit = std::bit_cast<KernelHit>(nearest);
+                return is_hit;
+              },
+          .plane_distance = plane_distance};
+}
+
+void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+  BASICRT_ASSERT(rays.size() == hits.size());
+  kernel_->intersect(kernel_scene(), rays.data(), hits.data(), rays.size(), kernel_scratch(kernel_->scratch_size));
+}
 
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> results) const {
-  trace<AnyQuery>(rays, results);
+  BASICRT_ASSERT(rays.size() == results.size());
+  kernel_->occluded(kernel_scene(), rays.data(), results.data(), rays.size(), kernel_scratch(kernel_->scratch_size));
 }
-
-Bounds3f Tracer::bounds() const { return instance_bvh_.bounds; }
 
 std::vector<ShapeTree> Tracer::take_trees() {
   std::vector<ShapeTree> trees = std::move(trees_);

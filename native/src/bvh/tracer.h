@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "bvh/kernels/kernel.h"
 #include "bvh/shape_tree.h"
-#include "bvh/wide_bvh.h"
 #include "geometry/hit.h"
 #include "math/ray.h"
 #include "math/transform.h"
@@ -30,35 +30,33 @@ class Tracer {
   Tracer& operator=(Tracer&&) noexcept;
 
   // The nearest hit of each ray in [t_min, t_max], of which no distance is negative; of hits at exactly the same distance that of the lowest instance,
-  // then primitive. A ray with a NaN, or from or towards infinity, misses.
+  // then primitive. Watertight: no ray passes between two triangles that share an edge. A ray with a NaN, or from or towards infinity, misses. Distances
+  // and barycentrics are those of single precision: make_surface_point() solves the hit again.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
   // Whether anything at all lies in [t_min, t_max]: 1 or 0 for each ray.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results) const;
 
-  [[nodiscard]] Bounds3f bounds() const;
+  [[nodiscard]] Bounds3f bounds() const { return bounds_; }
   // Gives the trees back, so that the next Tracer need not build them again. Leaves this one empty.
   [[nodiscard]] std::vector<ShapeTree> take_trees();
 
+  // For tests and benchmarks: with this kernel instead of the machine's best.
+  void use(const Kernel& kernel) { kernel_ = &kernel; }
+
  private:
-  // What a ray needs of an instance, in the order of the leaves of `instance_bvh_`.
-  struct PlacedInstance {
-    TransformD world_to_object;
-    std::uint32_t shape;
-    std::uint32_t index;  // as the constructor got it
-    std::uint32_t visibility;
-    bool is_translation;
-  };
+  [[nodiscard]] KernelScene kernel_scene() const;
+  void merge_small_meshes(const BvhConfig& config);
+  // The nearest hit on one instance in double precision: for what kernels don't walk.
+  [[nodiscard]] bool intersect_precisely(std::uint32_t instance, const Ray& ray, Hit& hit) const;
 
-  template <class Query>
-  struct InstanceVisitor;
-  template <class Query>
-  void trace(std::span<const Ray> rays, std::span<typename Query::Result> results) const;
-  template <class Query>
-  void trace_batch(std::span<const Ray> rays, std::span<typename Query::Result> results) const;
-
+  const Kernel* kernel_;
   std::vector<ShapeTree> trees_;
-  std::vector<PlacedInstance> placed_;
-  WideBvh instance_bvh_;  // its leaves' items are placed instances
+  std::vector<TracedInstance> instances_;
+  std::vector<KernelInstance> kernel_instances_;
+  MeshTree merged_;  // of small meshes that are used once, in world space
+  std::vector<TriangleOwner> merged_owners_;
+  NodeTree instance_tree_;
+  Bounds3f bounds_;
 };
 
 }  // namespace basicrt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Both builders make sound trees of anything, and the fault finder finds what is planted.
+// The reference builder makes sound trees of anything, and the fault finder finds what is planted.
 #include "bvh/bvh.h"
 
 #include <gtest/gtest.h>
@@ -8,12 +8,12 @@
 #include <set>
 
 #include "bvh/test_scenes.h"
-#include "bvh/wide_bvh.h"
+#include "bvh/tree.h"
 
 namespace basicrt {
 namespace {
 
-constexpr BvhBuilder builders[] = {BvhBuilder::median, BvhBuilder::binned_sah};
+constexpr int deep = 64;
 
 std::vector<Bounds3f> boxes_of(const Mesh& mesh) {
   std::vector<Bounds3f> boxes(mesh.triangles.size());
@@ -62,28 +62,21 @@ std::uint32_t largest_leaf(const Bvh& bvh) {
   return largest;
 }
 
-TEST(Bvh, both_builders_make_sound_trees_of_anything) {
-  for (const BvhBuilder builder : builders)
-    for (const auto& [name, boxes] : boxes_of_every_kind()) {
-      const Bvh bvh = build_bvh(boxes, {.builder = builder});
-      EXPECT_EQ(find_bvh_fault(bvh, boxes), "") << name;
-      EXPECT_EQ(bvh.nodes.empty(), boxes.empty()) << name;
-    }
-}
-
-TEST(Bvh, trees_are_never_deeper_than_walks_can_go) {
-  for (const BvhBuilder builder : builders)
-    for (const auto& [name, boxes] : boxes_of_every_kind())
-      EXPECT_LT(depth(build_bvh(boxes, {.builder = builder, .max_leaf_size = 1})), WideBvh::max_depth) << name;
+TEST(Bvh, is_a_sound_tree_of_anything) {
+  for (const auto& [name, boxes] : boxes_of_every_kind()) {
+    const Bvh bvh = build_median_bvh(boxes, deep);
+    EXPECT_EQ(find_bvh_fault(bvh, boxes), "") << name;
+    EXPECT_EQ(bvh.nodes.empty(), boxes.empty()) << name;
+  }
 }
 
 TEST(Bvh, median_leaves_hold_two_unless_the_depth_is_cut_off) {
   test::Random rng(2);
   const std::vector<Bounds3f> boxes = boxes_of(test::soup(rng, 1000, 0.1f));
-  const Bvh full = build_bvh(boxes, {.builder = BvhBuilder::median});
+  const Bvh full = build_median_bvh(boxes, deep);
   EXPECT_LE(largest_leaf(full), 2u);
   EXPECT_EQ(depth(full), 9);  // 1000 halved nine times is at most 2
-  const Bvh cut = build_bvh(boxes, {.builder = BvhBuilder::median, .max_depth = 4});
+  const Bvh cut = build_median_bvh(boxes, 4);
   EXPECT_EQ(depth(cut), 4);
   EXPECT_LE(largest_leaf(cut), 63u);
   EXPECT_EQ(find_bvh_fault(cut, boxes), "");
@@ -95,57 +88,25 @@ TEST(Bvh, median_splits_the_axis_of_largest_extent) {
     const Vec3f p{0, static_cast<float>(7 * i % 8), static_cast<float>(i % 2)};
     boxes.push_back({p, p});
   }
-  const Bvh bvh = build_bvh(boxes, {.builder = BvhBuilder::median});
+  const Bvh bvh = build_median_bvh(boxes, deep);
   const BvhNode& left = bvh.nodes[1];
   const BvhNode& right = bvh.nodes[bvh.nodes[0].right_or_first];
   EXPECT_EQ(left.bounds.upper.y, 3);
   EXPECT_EQ(right.bounds.lower.y, 4);
 }
 
-TEST(Bvh, sah_leaves_hold_no_more_than_asked_for_even_where_centroids_coincide) {
-  test::Random rng(3);
-  for (const Mesh& mesh : {test::soup(rng, 500, 0.3f), test::coincident(rng, 100)})
-    for (const int size : {1, 2, 4, 8}) {
-      const std::vector<Bounds3f> boxes = boxes_of(mesh);
-      const Bvh bvh = build_bvh(boxes, {.builder = BvhBuilder::binned_sah, .max_leaf_size = size});
-      EXPECT_LE(largest_leaf(bvh), static_cast<std::uint32_t>(size));
-      EXPECT_EQ(find_bvh_fault(bvh, boxes), "");
-    }
-}
-
-// The expected number of nodes and primitives that a random line which meets the root meets.
-double expected_work(const Bvh& bvh) {
-  double work = 0;
-  for (const BvhNode& node : bvh.nodes) work += double{node.bounds.half_area()} * (1.0 + node.count);
-  return work / double{bvh.nodes[0].bounds.half_area()};
-}
-
-TEST(Bvh, sah_trees_cost_less_than_median_trees) {
-  test::Random rng(4);
-  Mesh uneven = test::soup(rng, 2000, 0.02f);
-  for (std::size_t i = 0; i < 3000; ++i) uneven.positions[i] *= 0.01f;  // half of it in a small cluster
-  for (const Mesh& mesh : {test::soup(rng, 2000, 0.05f), uneven}) {
-    const std::vector<Bounds3f> boxes = boxes_of(mesh);
-    const double sah = expected_work(build_bvh(boxes, {.builder = BvhBuilder::binned_sah, .max_leaf_size = 2}));
-    EXPECT_LT(sah, 0.95 * expected_work(build_bvh(boxes, {.builder = BvhBuilder::median})));
-  }
-}
-
 TEST(Bvh, building_twice_gives_the_same_tree) {
-  test::Random rng(5);
   const std::vector<Bounds3f> boxes = boxes_of(test::flat_grid(20));
-  for (const BvhBuilder builder : builders) {
-    const Bvh a = build_bvh(boxes, {.builder = builder}), b = build_bvh(boxes, {.builder = builder});
-    EXPECT_EQ(a.primitives, b.primitives);
-    ASSERT_EQ(a.nodes.size(), b.nodes.size());
-    for (std::size_t i = 0; i < a.nodes.size(); ++i) EXPECT_EQ(a.nodes[i].right_or_first, b.nodes[i].right_or_first);
-  }
+  const Bvh a = build_median_bvh(boxes, deep), b = build_median_bvh(boxes, deep);
+  EXPECT_EQ(a.primitives, b.primitives);
+  ASSERT_EQ(a.nodes.size(), b.nodes.size());
+  for (std::size_t i = 0; i < a.nodes.size(); ++i) EXPECT_EQ(a.nodes[i].right_or_first, b.nodes[i].right_or_first);
 }
 
 TEST(BvhFault, is_found_wherever_it_is_planted) {
   test::Random rng(6);
   const std::vector<Bounds3f> boxes = boxes_of(test::soup(rng, 100, 0.1f));
-  const Bvh sound = build_bvh(boxes, {.max_leaf_size = 2});
+  const Bvh sound = build_median_bvh(boxes, deep);
   std::size_t leaf = 0;
   while (!sound.nodes[leaf].is_leaf()) ++leaf;
 
@@ -178,47 +139,9 @@ TEST(BvhFault, is_found_wherever_it_is_planted) {
                        "node"));
   // The same primitive in two leaves, both large enough to hold it.
   const std::vector<Bounds3f> same(4, Bounds3f{Vec3f(0), Vec3f(1)});
-  Bvh twice = build_bvh(same, {.max_leaf_size = 1});
+  Bvh twice = build_median_bvh(same, deep);
   twice.primitives[1] = twice.primitives[0];
   EXPECT_TRUE(contains(find_bvh_fault(twice, same), "leaves"));
-}
-
-// Walks the collapsed tree and checks that each primitive is in one leaf, inside the box that its parent has for it.
-TEST(WideBvh, holds_every_primitive_once_and_within_its_boxes) {
-  for (const BvhBuilder builder : builders)
-    for (const auto& [name, boxes] : boxes_of_every_kind()) {
-      const Bvh bvh = build_bvh(boxes, {.builder = builder});
-      std::vector<std::vector<std::uint32_t>> leaves;
-      const WideBvh wide = WideBvhBuilder(bvh).build([&](std::span<const std::uint32_t> leaf) {
-        leaves.emplace_back(leaf.begin(), leaf.end());
-        return WideReference{static_cast<std::uint32_t>(leaves.size() - 1), 1};
-      });
-      std::multiset<std::uint32_t> seen;
-      const std::function<void(WideReference, const Bounds3f&)> visit = [&](WideReference reference,
-                                                                            const Bounds3f& box) {
-        if (reference.count > 0) {
-          for (const std::uint32_t primitive : leaves[reference.first]) {
-            EXPECT_TRUE(box.contains(boxes[primitive])) << name;
-            seen.insert(primitive);
-          }
-          return;
-        }
-        const WideNode& node = wide.nodes[reference.first];
-        for (int child = 0; child < 4; ++child) {
-          Bounds3f child_box;
-          for (std::size_t axis = 0; axis < 3; ++axis) {
-            child_box.lower[axis] = node.lower[axis][child];
-            child_box.upper[axis] = node.upper[axis][child];
-          }
-          EXPECT_TRUE(box.contains(child_box)) << name;
-          const bool is_used = node.children[child].count > 0 || node.children[child].first > reference.first;
-          if (is_used) visit(node.children[child], child_box);
-        }
-      };
-      if (!wide.is_empty()) visit(wide.root, wide.bounds);
-      EXPECT_EQ(seen.size(), boxes.size()) << name;
-      EXPECT_EQ(std::set(seen.begin(), seen.end()).size(), boxes.size()) << name;
-    }
 }
 
 }  // namespace

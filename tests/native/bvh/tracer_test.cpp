@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "bvh/kernels/chosen_kernel.h"
 #include "bvh/test_scenes.h"
 
 namespace basicrt {
@@ -11,30 +15,66 @@ namespace {
 
 constexpr BvhBuilder builders[] = {BvhBuilder::median, BvhBuilder::binned_sah};
 
+// Every kernel that this machine has.
+std::vector<const Kernel*> kernels() {
+  std::vector<const Kernel*> result;
+  for (const char* name : {"avx512", "avx2", "sse42", "scalar"})
+    if (const Kernel* kernel = find_kernel(name)) result.push_back(kernel);
+  return result;
+}
+
+// What is wrong with a hit, given the nearest by testing everything in double precision, or an empty string. A kernel rounds: it may take another
+// surface that is as near within rounding, and rays that pass a triangle's border within rounding may hit it or not.
+std::string fault_of(const Hit& hit, const Hit& expected, const std::vector<Shape>& shapes,
+                     const std::vector<TracedInstance>& instances, const Ray& ray) {
+  constexpr double rounding = 2e-5;
+  const auto distance = [&](const Hit& of) {
+    return test::distance_and_border(shapes, instances, ray, of.instance, of.primitive);
+  };
+  if (!hit.is_hit() && !expected.is_hit()) return {};
+  if (!hit.is_hit()) return distance(expected).border < rounding ? "" : "misses a hit";
+  const auto [t, border, scale] = distance(hit);
+  if (border < -rounding) return "hits a triangle that the ray passes by";
+  const double allowed = rounding * std::max(t, scale);
+  if (std::abs(static_cast<double>(hit.t) - t) > allowed) return "has the wrong distance";
+  if (!expected.is_hit())
+    return border < rounding || std::abs(t - static_cast<double>(ray.t_min)) < allowed ||
+                   std::abs(t - static_cast<double>(ray.t_max)) < allowed
+               ? ""
+               : "hits what isn't there";
+  const bool is_same = hit.instance == expected.instance && hit.primitive == expected.primitive;
+  if (is_same || std::abs(t - static_cast<double>(expected.t)) <= allowed) return {};
+  return distance(expected).border < rounding && t > static_cast<double>(expected.t) ? "" : "is not the nearest";
+}
+
 // Compares `count` rays and returns how many hit anything, so that callers can see that the test tested something.
 int compare_with_brute_force(const std::vector<Shape>& shapes, const std::vector<TracedInstance>& instances,
                              const std::vector<Ray>& rays, const std::string& name) {
-  int hit_count = 0;
+  std::vector<Hit> expected;
+  for (const Ray& ray : rays) expected.push_back(test::brute_force(shapes, instances, ray));
   for (const BvhBuilder builder : builders) {
-    SCOPED_TRACE(name + (builder == BvhBuilder::median ? ", median" : ", binned SAH"));
-    const Tracer tracer = test::make_tracer(shapes, instances, {.builder = builder});
-    std::vector<Hit> hits(rays.size());
-    std::vector<std::uint8_t> occluded(rays.size());
-    tracer.intersect(rays, hits);
-    tracer.occluded(rays, occluded);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Hit expected = test::brute_force(shapes, instances, rays[i]);
-      hit_count += expected.is_hit();
-      const bool is_same = hits[i].t == expected.t && hits[i].instance == expected.instance &&
-                           hits[i].primitive == expected.primitive && hits[i].u == expected.u &&
-                           hits[i].v == expected.v;
-      EXPECT_TRUE(is_same) << "ray " << i << ": t " << hits[i].t << " instead of " << expected.t << ", primitive "
-                           << hits[i].primitive << " instead of " << expected.primitive;
-      EXPECT_EQ(occluded[i], expected.is_hit()) << "ray " << i;
-      if (testing::Test::HasFailure()) return hit_count;
+    Tracer tracer = test::make_tracer(shapes, instances, {.builder = builder});
+    std::vector<Hit> first_hits;
+    for (const Kernel* kernel : kernels()) {
+      SCOPED_TRACE(name + (builder == BvhBuilder::median ? ", median, " : ", binned SAH, ") + kernel->name);
+      tracer.use(*kernel);
+      std::vector<Hit> hits(rays.size());
+      std::vector<std::uint8_t> occluded(rays.size());
+      tracer.intersect(rays, hits);
+      tracer.occluded(rays, occluded);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_EQ(fault_of(hits[i], expected[i], shapes, instances, rays[i]), "")
+            << "ray " << i << ": t " << hits[i].t << " instead of " << expected[i].t << ", primitive "
+            << hits[i].primitive << " instead of " << expected[i].primitive;
+        EXPECT_EQ(occluded[i], hits[i].is_hit()) << "ray " << i;
+        if (testing::Test::HasFailure()) return 0;
+      }
+      if (first_hits.empty()) first_hits = hits;
+      for (std::size_t i = 0; i < rays.size(); ++i)
+        EXPECT_TRUE(test::is_identical(hits[i], first_hits[i])) << "ray " << i << " depends on the kernel";
     }
   }
-  return hit_count;
+  return static_cast<int>(std::count_if(expected.begin(), expected.end(), [](const Hit& hit) { return hit.is_hit(); }));
 }
 
 std::vector<Ray> random_rays(test::Random& rng, int count) {
@@ -48,7 +88,7 @@ TEST(Tracer, agrees_with_brute_force_on_every_kind_of_shape) {
   for (const auto& [name, shape] : test::shapes_of_every_kind(rng)) {
     const int hits = compare_with_brute_force({shape}, {test::place(0, {})}, random_rays(rng, 2000), name);
     const bool is_visible = name != "empty mesh" && name != "denormal";
-    EXPECT_GT(hits, is_visible ? 100 : -1) << name;
+    EXPECT_GT(hits, is_visible ? 50 : -1) << name;
   }
 }
 

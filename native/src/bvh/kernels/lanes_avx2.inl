@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Eight floats at a time with AVX2.
+
+struct Float8 {
+  __m256 lanes;
+
+  static Float8 load(const float* aligned) { return {_mm256_load_ps(aligned)}; }
+  static Float8 all(float x) { return {_mm256_set1_ps(x)}; }
+  friend Float8 operator-(Float8 a, Float8 b) { return {_mm256_sub_ps(a.lanes, b.lanes)}; }
+  friend Float8 operator*(Float8 a, Float8 b) { return {_mm256_mul_ps(a.lanes, b.lanes)}; }
+  // Where one is NaN, b.
+  friend Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(a.lanes, b.lanes)}; }
+  friend Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(a.lanes, b.lanes)}; }
+};
+
+// Row m: the numbers of the set bits of m in front, which moves the lanes of a mask together.
+struct CompressTable {
+  alignas(64) std::uint32_t rows[256][8] = {};
+
+  constexpr CompressTable() {
+    for (unsigned mask = 0; mask < 256; ++mask) {
+      unsigned count = 0;
+      for (unsigned bit = 0; bit < 8; ++bit)
+        if (mask >> bit & 1) rows[mask][count++] = bit;
+    }
+  }
+};
+constexpr CompressTable compress_table;
+
+inline std::uint32_t push_compressed(unsigned mask, __m256i references, __m256 entries, TreeReference* to_references,
+                                     float* to_entries) {
+  const __m256i row = _mm256_load_si256(reinterpret_cast<const __m256i*>(compress_table.rows[mask]));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to_references), _mm256_permutevar8x32_epi32(references, row));
+  _mm256_storeu_ps(to_entries, _mm256_permutevar8x32_ps(entries, row));
+  return static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
+}
+
+inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                   const Float8& exit, TreeReference* references, float* entries) {
+  // Permutations use the lowest three bits of each number.
+  const __m256i order = _mm256_srl_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.order)),
+                                         _mm_cvtsi32_si128(static_cast<int>(octant_shift)));
+  const __m256i children =
+      _mm256_permutevar8x32_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.children)), order);
+  const __m256 entry_distances = _mm256_permutevar8x32_ps(entry.lanes, order);
+  const __m256 exit_distances = _mm256_permutevar8x32_ps(exit.lanes, order);
+  const int hits = _mm256_movemask_ps(_mm256_cmp_ps(entry_distances, exit_distances, _CMP_LE_OQ));
+  return push_compressed(static_cast<unsigned>(hits), children, entry_distances, references, entries);
+}
+
+inline std::uint32_t keep_within(TreeReference* references, float* entries, std::uint32_t count, float t_max) {
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < count; i += 8) {
+    const __m256i some = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(references + i));
+    const __m256 distances = _mm256_loadu_ps(entries + i);
+    const unsigned is_there = count - i >= 8 ? 255u : (1u << (count - i)) - 1;
+    const int is_near = _mm256_movemask_ps(_mm256_cmp_ps(distances, _mm256_set1_ps(t_max), _CMP_LE_OQ));
+    kept +=
+        push_compressed(static_cast<unsigned>(is_near) & is_there, some, distances, references + kept, entries + kept);
+  }
+  return kept;
+}

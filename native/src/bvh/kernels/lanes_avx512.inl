@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Eight floats at a time with AVX-512, which moves the lanes of a mask together in one instruction.
+
+struct Float8 {
+  __m256 lanes;
+
+  static Float8 load(const float* aligned) { return {_mm256_load_ps(aligned)}; }
+  static Float8 all(float x) { return {_mm256_set1_ps(x)}; }
+  friend Float8 operator-(Float8 a, Float8 b) { return {_mm256_sub_ps(a.lanes, b.lanes)}; }
+  friend Float8 operator*(Float8 a, Float8 b) { return {_mm256_mul_ps(a.lanes, b.lanes)}; }
+  // Where one is NaN, b.
+  friend Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(a.lanes, b.lanes)}; }
+  friend Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(a.lanes, b.lanes)}; }
+};
+
+inline std::uint32_t push_compressed(__mmask8 mask, __m256i references, __m256 entries, TreeReference* to_references,
+                                     float* to_entries) {
+  // Compressed in registers: storing compressed memory is slow on some machines.
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to_references), _mm256_maskz_compress_epi32(mask, references));
+  _mm256_storeu_ps(to_entries, _mm256_maskz_compress_ps(mask, entries));
+  return static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
+}
+
+inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                   const Float8& exit, TreeReference* references, float* entries) {
+  // Permutations use the lowest three bits of each number.
+  const __m256i order = _mm256_srl_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.order)),
+                                         _mm_cvtsi32_si128(static_cast<int>(octant_shift)));
+  const __m256i children =
+      _mm256_permutevar8x32_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.children)), order);
+  const __m256 entry_distances = _mm256_permutevar8x32_ps(entry.lanes, order);
+  const __m256 exit_distances = _mm256_permutevar8x32_ps(exit.lanes, order);
+  return push_compressed(_mm256_cmp_ps_mask(entry_distances, exit_distances, _CMP_LE_OQ), children, entry_distances,
+                         references, entries);
+}
+
+inline std::uint32_t keep_within(TreeReference* references, float* entries, std::uint32_t count, float t_max) {
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < count; i += 8) {
+    const __m256i some = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(references + i));
+    const __m256 distances = _mm256_loadu_ps(entries + i);
+    const unsigned is_there = count - i >= 8 ? 255u : (1u << (count - i)) - 1;
+    const auto mask = static_cast<__mmask8>(
+        _mm256_mask_cmp_ps_mask(static_cast<__mmask8>(is_there), distances, _mm256_set1_ps(t_max), _CMP_LE_OQ));
+    kept += push_compressed(mask, some, distances, references + kept, entries + kept);
+  }
+  return kept;
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Eight floats as twice four, and what is done with a node's children one by one.
+
+struct Float8 {
+  Float4 halves[2];
+
+  static Float8 load(const float* aligned) { return {{Float4::load(aligned), Float4::load(aligned + 4)}}; }
+  static Float8 all(float x) { return {{Float4::all(x), Float4::all(x)}}; }
+  friend Float8 operator-(Float8 a, Float8 b) { return {{a.halves[0] - b.halves[0], a.halves[1] - b.halves[1]}}; }
+  friend Float8 operator*(Float8 a, Float8 b) { return {{a.halves[0] * b.halves[0], a.halves[1] * b.halves[1]}}; }
+  friend Float8 min(Float8 a, Float8 b) { return {{min(a.halves[0], b.halves[0]), min(a.halves[1], b.halves[1])}}; }
+  friend Float8 max(Float8 a, Float8 b) { return {{max(a.halves[0], b.halves[0]), max(a.halves[1], b.halves[1])}}; }
+};
+
+inline unsigned children_within(const Float8& entry, const Float8& exit) {
+  return (entry.halves[0] <= exit.halves[0]).bits() | (entry.halves[1] <= exit.halves[1]).bits() << 4;
+}
+
+inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                   const Float8& exit, TreeReference* references, float* entries) {
+  const unsigned hits = children_within(entry, exit);
+  alignas(16) float distances[8];
+  entry.halves[0].store(distances);
+  entry.halves[1].store(distances + 4);
+  std::uint32_t count = 0;
+  for (const std::uint32_t order : node.order) {
+    const std::uint32_t child = order >> octant_shift & 7;
+    references[count] = node.children[child];
+    entries[count] = distances[child];
+    count += hits >> child & 1;
+  }
+  return count;
+}
+
+inline std::uint32_t keep_within(TreeReference* references, float* entries, std::uint32_t count, float t_max) {
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    references[kept] = references[i];
+    entries[kept] = entries[i];
+    kept += entries[i] <= t_max;
+  }
+  return kept;
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The order in which rays visit the children of a node.
+#pragma once
+
+#include "bvh/tree.h"
+
+namespace basicrt {
+
+// Fills in TreeNode::order from the bounds of the first `count` children, those in use.
+void set_order(TreeNode& node, int count);
+
+}  // namespace basicrt

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Walks a tree by the tests of geometry/.
+#include "bvh/precise_walk.h"
+
+#include <vector>
+
+#include "geometry/aabb.h"
+#include "geometry/triangle.h"
+
+namespace basicrt {
+namespace {
+
+Vec3f corner(const TriangleBlock& block, std::size_t lane, std::size_t corner_index) {
+  const auto& axes = block.corners[corner_index];
+  return {axes[0][lane], axes[1][lane], axes[2][lane]};
+}
+
+Bounds3f child_bounds(const TreeNode& node, std::size_t child) {
+  Bounds3f box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = node.bounds[axis][0][child];
+    box.upper[axis] = node.bounds[axis][1][child];
+  }
+  return box;
+}
+
+Hit make_hit(double t, std::uint32_t primitive, double u, double v) {
+  return {.t = static_cast<float>(t), .primitive = primitive, .u = static_cast<float>(u), .v = static_cast<float>(v)};
+}
+
+// Takes the nearest of a block's hits, of equal ones the lowest.
+void intersect_block(const TriangleBlock& block, PreciseRay& ray, std::optional<Hit>& nearest) {
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const double t_max = ray.t_max;
+    const auto hit = intersect_triangle(ray, corner(block, lane, 0), corner(block, lane, 1), corner(block, lane, 2));
+    if (!hit) continue;
+    const bool is_tie = hit->t == t_max && nearest;
+    if (is_tie && block.primitives[lane] >= nearest->primitive) continue;
+    nearest = make_hit(hit->t, block.primitives[lane], hit->u, hit->v);
+  }
+}
+
+}  // namespace
+
+std::optional<Hit> intersect_mesh_precisely(const MeshTree& mesh, PreciseRay ray) {
+  std::optional<Hit> nearest;
+  const BoxRay box_ray = make_box_ray(ray.origin, ray.direction);
+  std::vector<TreeReference> waiting{mesh.tree.root};
+  while (!waiting.empty()) {
+    const TreeReference current = waiting.back();
+    waiting.pop_back();
+    if (current == no_reference) continue;
+    if (current >= triangles_mark) {
+      intersect_block(mesh.blocks[current & reference_index], ray, nearest);
+      continue;
+    }
+    const TreeNode& node = mesh.tree.nodes[current];
+    const Interval range{static_cast<float>(ray.t_min), static_cast<float>(ray.t_max)};
+    for (std::size_t child = 0; child < 8; ++child)
+      if (intersect_box(box_ray, child_bounds(node, child), range)) waiting.push_back(node.children[child]);
+  }
+  return nearest;
+}
+
+std::optional<Hit> intersect_sphere_precisely(const Sphere& sphere, PreciseRay ray) {
+  const auto t = intersect_sphere(ray, sphere);
+  if (!t) return std::nullopt;
+  const Vec2d uv = sphere_uv(ray.origin + ray.direction * *t - Vec3d(sphere.center));
+  return make_hit(*t, 0, uv.x, uv.y);
+}
+
+}  // namespace basicrt

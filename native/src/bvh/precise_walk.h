@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One ray against one shape, all in double precision and in plain C++: for shapes and sizes that kernels leave out.
+#pragma once
+
+#include <optional>
+
+#include "bvh/mesh_tree.h"
+#include "geometry/hit.h"
+#include "geometry/precise_ray.h"
+#include "geometry/sphere.h"
+
+namespace basicrt {
+
+// The nearest hit in [t_min, t_max], without its instance.
+[[nodiscard]] std::optional<Hit> intersect_mesh_precisely(const MeshTree& mesh, PreciseRay ray);
+[[nodiscard]] std::optional<Hit> intersect_sphere_precisely(const Sphere& sphere, PreciseRay ray);
+
+}  // namespace basicrt

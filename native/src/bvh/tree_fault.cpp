@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Walks the tree, which may be wrong in any way, and stops at the first fault.
+#include "bvh/tree_fault.h"
+
+#include <functional>
+#include <vector>
+
+namespace basicrt {
+namespace {
+
+Bounds3f child_bounds(const TreeNode& node, std::size_t child) {
+  Bounds3f box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = node.bounds[axis][0][child];
+    box.upper[axis] = node.bounds[axis][1][child];
+  }
+  return box;
+}
+
+bool is_same_position(Vec3f a, Vec3f b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+bool is_leaf(TreeReference reference) { return (reference & triangles_mark) != 0; }
+
+class FaultFinder {
+ public:
+  // check_leaf(reference, box) returns what is wrong with a leaf inside that box.
+  using CheckLeaf = std::function<std::string(TreeReference, const Bounds3f&)>;
+
+  FaultFinder(const NodeTree& tree, CheckLeaf check_leaf)
+      : tree_(tree), check_leaf_(std::move(check_leaf)), is_reached_(tree.nodes.size()) {}
+
+  std::string find() {
+    if (tree_.root != no_reference) visit(tree_.root, tree_.bounds, 0);
+    for (std::size_t i = 0; i < is_reached_.size(); ++i)
+      if (!is_reached_[i]) report("node " + std::to_string(i) + ": has no parent");
+    return fault_;
+  }
+
+ private:
+  void report(const std::string& fault) {
+    if (fault_.empty()) fault_ = fault;
+  }
+
+  void visit(TreeReference reference, const Bounds3f& box, int depth) {
+    if (!fault_.empty()) return;
+    if (is_leaf(reference)) return report(check_leaf_(reference, box));
+    const std::string name = "node " + std::to_string(reference) + ": ";
+    if (reference >= tree_.nodes.size()) return report(name + "does not exist");
+    if (is_reached_[reference]) return report(name + "has two parents");
+    if (depth >= max_tree_depth) return report(name + "is too deep");
+    is_reached_[reference] = true;
+    const TreeNode& node = tree_.nodes[reference];
+    check_order(node, name);
+    for (std::size_t child = 0; child < 8; ++child) {
+      const Bounds3f child_box = child_bounds(node, child);
+      if (node.children[child] == no_reference) {
+        if (!(child_box.lower.x > child_box.upper.x)) report(name + "an unused child is not empty");
+      } else {
+        if (!box.contains(child_box) || child_box.is_empty()) report(name + "a child is not inside its parent");
+        visit(node.children[child], child_box, depth + 1);
+      }
+    }
+  }
+
+  void check_order(const TreeNode& node, const std::string& name) {
+    for (int octant = 0; octant < 8; ++octant) {
+      unsigned seen = 0;
+      bool is_used_before = false;
+      for (const std::uint32_t order : node.order) {
+        const std::uint32_t child = order >> (3 * octant) & 7;
+        seen |= 1u << child;
+        const bool is_used = node.children[child] != no_reference;
+        if (is_used_before && !is_used) report(name + "an unused child comes after others");
+        is_used_before = is_used;
+      }
+      if (seen != 255) report(name + "the order is no permutation");
+    }
+  }
+
+  const NodeTree& tree_;
+  CheckLeaf check_leaf_;
+  std::vector<bool> is_reached_;
+  std::string fault_;
+};
+
+// Which primitives were seen, and how often.
+class Uses {
+ public:
+  explicit Uses(std::size_t count) : uses_(count) {}
+  // Returns what is wrong.
+  std::string add(std::uint32_t primitive) {
+    if (primitive >= uses_.size()) return "primitive " + std::to_string(primitive) + ": does not exist";
+    ++uses_[primitive];
+    return {};
+  }
+  template <class Expected>
+  std::string find_fault(const Expected& expected) const {
+    for (std::size_t i = 0; i < uses_.size(); ++i)
+      if (uses_[i] != expected(i))
+        return "primitive " + std::to_string(i) + ": is in " + std::to_string(uses_[i]) + " leaves";
+    return {};
+  }
+
+ private:
+  std::vector<unsigned> uses_;
+};
+
+std::string check_block(const TriangleBlock& block, const Mesh& mesh, const Bounds3f& box, Uses& uses) {
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const std::uint32_t triangle = block.primitives[lane];
+    const bool is_missing = lane > 0 && triangle == block.primitives[lane - 1];
+    const bool was_missing = lane > 1 && block.primitives[lane - 1] == block.primitives[lane - 2];
+    const std::string name = "primitive " + std::to_string(triangle) + ": ";
+    if (was_missing && !is_missing) return name + "comes after a missing one";
+    if (lane > 0 && triangle < block.primitives[lane - 1]) return name + "is not in ascending order";
+    if (!is_missing)
+      if (std::string fault = uses.add(triangle); !fault.empty()) return fault;
+    Bounds3f bounds;
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec3f position{block.corners[corner][0][lane], block.corners[corner][1][lane],
+                           block.corners[corner][2][lane]};
+      if (!is_same_position(position, mesh.position(triangle, corner))) return name + "is not where the mesh has it";
+      bounds.extend(position);
+    }
+    if (!box.contains(bounds)) return name + "is not inside its leaf";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string find_tree_fault(const MeshTree& tree, const Mesh& mesh) {
+  Uses uses(mesh.triangles.size());
+  std::vector<bool> is_reached(tree.blocks.size());
+  const auto check_leaf = [&](TreeReference reference, const Bounds3f& box) -> std::string {
+    const std::uint32_t index = reference & reference_index;
+    const std::string name = "block " + std::to_string(index) + ": ";
+    if ((reference & ~reference_index) != triangles_mark || index >= tree.blocks.size()) return name + "does not exist";
+    if (is_reached[index]) return name + "has two parents";
+    is_reached[index] = true;
+    return check_block(tree.blocks[index], mesh, box, uses);
+  };
+  if (std::string fault = FaultFinder(tree.tree, check_leaf).find(); !fault.empty()) return fault;
+  for (std::size_t i = 0; i < is_reached.size(); ++i)
+    if (!is_reached[i]) return "block " + std::to_string(i) + ": has no parent";
+  return uses.find_fault([](std::size_t) { return 1u; });
+}
+
+std::string find_tree_fault(const NodeTree& tree, std::span<const Bounds3f> boxes) {
+  Uses uses(boxes.size());
+  const auto check_leaf = [&](TreeReference reference, const Bounds3f& box) -> std::string {
+    const std::uint32_t index = reference & reference_index;
+    if ((reference & ~reference_index) != instance_mark) return "a leaf is no instance";
+    if (std::string fault = uses.add(index); !fault.empty()) return fault;
+    return box.contains(boxes[index]) ? "" : "primitive " + std::to_string(index) + ": is not inside its leaf";
+  };
+  if (std::string fault = FaultFinder(tree, check_leaf).find(); !fault.empty()) return fault;
+  return uses.find_fault([&](std::size_t i) { return boxes[i].is_empty() ? 0u : 1u; });
+}
+
+}  // namespace basicrt
