@@ -2,6 +2,7 @@
 // Looks for faults in a tree.
 #include "bvh/bvh.h"
 
+#include <bit>
 #include <string_view>
 
 namespace basicrt {
@@ -71,6 +72,12 @@ class FaultFinder {
 };
 
 }  // namespace
+
+// Builders move each primitive about once a level; the levels of small parts are counted when these are done.
+std::uint64_t build_work(std::size_t primitives) {
+  const int large_levels = static_cast<int>(std::bit_width(primitives / large_part));
+  return primitives * static_cast<std::uint64_t>(large_levels + small_part_work + 4);
+}
 
 std::string find_bvh_fault(const Bvh& bvh, std::span<const Bounds3f> bounds) { return FaultFinder(bvh, bounds).find(); }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "math/bounds.h"
 
 namespace basicrt {
@@ -21,7 +22,16 @@ struct BvhConfig {
   int max_depth = 64;  // median: a node this deep becomes a leaf
   int leaf_size = 4;   // triangles in a block: fewer take more memory and fewer tests
   int threads = 0;     // 0: one for each processor; the tree is the same for any number
+  WorkProgress* progress =
+      nullptr;  // hears of the work in units of build_work(), and can cancel it: Cancelled is thrown
 };
+
+// Parts of a tree with fewer primitives are reported when they are done, at so much work for each primitive.
+inline constexpr std::size_t large_part = 8192;
+inline constexpr int small_part_work = 12;
+
+// About how much work it is to build a tree over so many primitives.
+[[nodiscard]] std::uint64_t build_work(std::size_t primitives);
 
 struct BvhNode {
   Bounds3f bounds;
@@ -38,8 +48,8 @@ struct Bvh {
   std::vector<std::uint32_t> primitives;
 };
 
-// Halves the primitives along the longest axis of their bounds. A leaf holds two, or more where it is at `max_depth`.
-[[nodiscard]] Bvh build_median_bvh(std::span<const Bounds3f> bounds, int max_depth);
+// Halves the primitives along the longest axis of their bounds. A leaf holds two, or more where it is at `config.max_depth`.
+[[nodiscard]] Bvh build_median_bvh(std::span<const Bounds3f> bounds, const BvhConfig& config);
 
 // What is wrong with the tree, or an empty string: every primitive in exactly one leaf, children inside parents.
 [[nodiscard]] std::string find_bvh_fault(const Bvh& bvh, std::span<const Bounds3f> bounds);

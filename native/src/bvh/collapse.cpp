@@ -25,8 +25,8 @@ double area_of(const Part& part) {
 
 class Collapse {
  public:
-  Collapse(const Bvh& bvh, std::span<const Bounds3f> boxes, std::uint32_t leaf_size)
-      : bvh_(bvh), boxes_(boxes), leaf_size_(leaf_size) {}
+  Collapse(const Bvh& bvh, std::span<const Bounds3f> boxes, std::uint32_t leaf_size, WorkProgress* progress)
+      : bvh_(bvh), boxes_(boxes), leaf_size_(leaf_size), progress_(progress) {}
 
   TreeLayout build() {
     layout_.bounds = bvh_.nodes[0].bounds;
@@ -65,6 +65,7 @@ class Collapse {
 
   TreeReference build_part(const Part& part, int depth) {
     if (!can_open(part)) {
+      if (progress_ != nullptr) progress_->advance(part.count);
       const auto first = layout_.primitives.begin() + part.first;
       std::sort(first, first + part.count);
       layout_.leaf_begins.push_back(part.first);
@@ -84,7 +85,7 @@ class Collapse {
       const TreeReference reference = child < parts.size() ? build_part(parts[child], depth + 1) : no_reference;
       layout_.nodes[index].children[child] = reference;
     }
-    set_order(layout_.nodes[index], static_cast<int>(parts.size()));
+    set_order(layout_.nodes[index]);
     return static_cast<TreeReference>(index);
   }
 
@@ -106,14 +107,15 @@ class Collapse {
   const Bvh& bvh_;
   std::span<const Bounds3f> boxes_;
   std::uint32_t leaf_size_;
+  WorkProgress* progress_;
   TreeLayout layout_;
 };
 
 }  // namespace
 
-TreeLayout collapse_to_layout(const Bvh& bvh, std::span<const Bounds3f> boxes, int leaf_size) {
+TreeLayout collapse_to_layout(const Bvh& bvh, std::span<const Bounds3f> boxes, int leaf_size, WorkProgress* progress) {
   if (bvh.nodes.empty()) return {};
-  return Collapse(bvh, boxes, static_cast<std::uint32_t>(leaf_size)).build();
+  return Collapse(bvh, boxes, static_cast<std::uint32_t>(leaf_size), progress).build();
 }
 
 }  // namespace basicrt

@@ -20,7 +20,7 @@ std::size_t largest_axis(Vec3f extent) {
 
 class MedianBuilder {
  public:
-  MedianBuilder(std::span<const Bounds3f> bounds, int max_depth) : bounds_(bounds), max_depth_(max_depth) {
+  MedianBuilder(std::span<const Bounds3f> bounds, const BvhConfig& config) : bounds_(bounds), config_(config) {
     bvh_.nodes.reserve(bounds.size());
     bvh_.primitives.resize(bounds.size());
     std::iota(bvh_.primitives.begin(), bvh_.primitives.end(), 0u);
@@ -37,12 +37,13 @@ class MedianBuilder {
     const std::size_t index = bvh_.nodes.size();
     BvhNode node;
     for (std::uint32_t i = begin; i < end; ++i) node.bounds.extend(bounds_[bvh_.primitives[i]]);
-    const bool is_leaf = end - begin <= 2 || depth >= max_depth_;
+    const bool is_leaf = end - begin <= 2 || depth >= config_.max_depth;
     if (is_leaf) {
       node.right_or_first = begin;
       node.count = end - begin;
     }
     bvh_.nodes.push_back(node);
+    report_work(end - begin, is_leaf);
     if (is_leaf) return;
 
     const std::uint32_t middle = begin + (end - begin) / 2;
@@ -50,6 +51,12 @@ class MedianBuilder {
     build_node(begin, middle, depth + 1);
     bvh_.nodes[index].right_or_first = static_cast<std::uint32_t>(bvh_.nodes.size());
     build_node(middle, end, depth + 1);
+  }
+
+  void report_work(std::uint32_t count, bool is_leaf) {
+    if (config_.progress == nullptr) return;
+    if (is_leaf) config_.progress->advance(std::uint64_t{count} * small_part_work);
+    if (count >= large_part) config_.progress->advance(count);
   }
 
   void split_at(std::uint32_t begin, std::uint32_t middle, std::uint32_t end, std::size_t axis) {
@@ -62,17 +69,17 @@ class MedianBuilder {
   }
 
   std::span<const Bounds3f> bounds_;
-  int max_depth_;
+  const BvhConfig& config_;
   Bvh bvh_;
 };
 
 }  // namespace
 
-Bvh build_median_bvh(std::span<const Bounds3f> bounds, int max_depth) {
+Bvh build_median_bvh(std::span<const Bounds3f> bounds, const BvhConfig& config) {
   // So that the number of nodes fits 32 bits too.
   BASICRT_ASSERT(bounds.size() <= std::numeric_limits<std::uint32_t>::max() / 2);
   if (bounds.empty()) return {};
-  return MedianBuilder(bounds, max_depth).build();
+  return MedianBuilder(bounds, config).build();
 }
 
 }  // namespace basicrt

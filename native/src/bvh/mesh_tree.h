@@ -17,6 +17,8 @@ struct NodeTree {
   HugeVector<TreeNode> nodes;
   TreeReference root = no_reference;
   Bounds3f bounds;
+
+  [[nodiscard]] std::size_t memory() const { return nodes.size() * sizeof(TreeNode); }  // bytes
 };
 
 struct MeshTree {
@@ -24,12 +26,16 @@ struct MeshTree {
   HugeVector<TriangleBlock> blocks;
 
   [[nodiscard]] std::size_t memory() const {  // bytes
-    return tree.nodes.size() * sizeof(TreeNode) + blocks.size() * sizeof(TriangleBlock);
+    return tree.memory() + blocks.size() * sizeof(TriangleBlock);
   }
 };
 
 // The same for any number of threads.
 [[nodiscard]] MeshTree build_mesh_tree(const Mesh& mesh, const BvhConfig& config);
+
+// Moves the tree along with a mesh that has the triangles it was built from, elsewhere: hits are right again, though
+// the tree is no better than it can be for that.
+void refit(MeshTree& tree, const Mesh& mesh, int threads = 0);
 
 // A tree with exactly one of the boxes in each leaf, marked as an instance. Empty boxes are left out.
 [[nodiscard]] NodeTree build_instance_tree(std::span<const Bounds3f> boxes, const BvhConfig& config);

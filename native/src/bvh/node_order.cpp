@@ -55,10 +55,10 @@ constexpr std::uint8_t comparisons[][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2
 
 }  // namespace
 
-void set_order(TreeNode& node, int count) {
+void set_order(TreeNode& node) {
   Keys keys[8];
   for (std::size_t child = 0; child < 8; ++child) {
-    if (child < static_cast<std::size_t>(count))
+    if (node.children[child] != no_reference)
       keys[child] = keys_of(node, child);
     else
       std::fill_n(keys[child].of_octant, 8, key_of(largest, static_cast<std::uint32_t>(child)));

@@ -6,7 +6,7 @@
 
 namespace basicrt {
 
-// Fills in TreeNode::order from the bounds of the first `count` children, those in use.
-void set_order(TreeNode& node, int count);
+// Fills in TreeNode::order from the bounds of the children that are in use.
+void set_order(TreeNode& node);
 
 }  // namespace basicrt

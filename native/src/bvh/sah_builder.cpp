@@ -50,8 +50,12 @@ class NodeBuilder {
 
  private:
   TreeReference build_part(const Part& part, int depth) {
-    if (part.count() <= workspace_.leaf_size) return add_leaf(part);
+    if (part.count() <= workspace_.leaf_size) {
+      workspace_.report_work(std::uint64_t{part.count()} * small_part_work);
+      return add_leaf(part);
+    }
     if (depth <= deepest_treelet && part.count() <= treelet_leaves * workspace_.leaf_size) {
+      workspace_.report_work(std::uint64_t{part.count()} * small_part_work);
       treelet_.clear();
       return build_node_of(add_to_treelet(part, 0));
     }
@@ -63,17 +67,19 @@ class NodeBuilder {
     subtree_.nodes.emplace_back();
     for (int child = 0; child < 8; ++child)
       set_bounds(subtree_.nodes[index], child, child < count ? parts[child].extents.box : Box());
-    set_order(subtree_.nodes[index], count);
     for (int child = 0; child < 8; ++child) {
       TreeReference reference = no_reference;
       if (child < count) {
-        if (branches_ && parts[child].count() <= subtree_size)
+        if (branches_ && parts[child].count() <= subtree_size) {
           branches_->push_back({.part = parts[child], .node = index, .child = child, .depth = depth + 1});
-        else
+          reference = triangles_mark;  // until join()
+        } else {
           reference = build_part(parts[child], depth + 1);
+        }
       }
       subtree_.nodes[index].children[child] = reference;
     }
+    set_order(subtree_.nodes[index]);
     return index;
   }
 
@@ -130,11 +136,11 @@ class NodeBuilder {
     subtree_.nodes.emplace_back();
     for (int child = 0; child < 8; ++child)
       set_bounds(subtree_.nodes[index], child, child < count ? treelet_[children[child]].box : Box());
-    set_order(subtree_.nodes[index], count);
     for (int child = 0; child < 8; ++child) {
       const TreeReference reference = child < count ? build_node_of(children[child]) : no_reference;
       subtree_.nodes[index].children[child] = reference;
     }
+    set_order(subtree_.nodes[index]);
     return index;
   }
 
@@ -201,10 +207,10 @@ TreeLayout join(Subtree top, const std::vector<Branch>& branches, std::vector<Su
 
 }  // namespace
 
-TreeLayout build_sah_layout(HugeVector<Reference> references, int leaf_size, WorkerPool& pool) {
+TreeLayout build_sah_layout(HugeVector<Reference> references, int leaf_size, WorkerPool& pool, WorkProgress* progress) {
   BASICRT_ASSERT(leaf_size == 1 || leaf_size == 2 || leaf_size == 4);
   if (references.empty()) return {};
-  Workspace workspace{.leaf_size = static_cast<std::uint32_t>(leaf_size)};
+  Workspace workspace{.leaf_size = static_cast<std::uint32_t>(leaf_size), .progress = progress};
   workspace.primitives.resize(references.size());
   workspace.buffers[1].resize(references.size());
   workspace.buffers[0] = std::move(references);

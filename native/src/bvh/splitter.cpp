@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "base/assert.h"
+#include "bvh/bvh.h"
 
 namespace basicrt {
 namespace {
 
 constexpr std::uint32_t chunk_size = 8192;  // primitives that a thread moves at a time
 constexpr std::uint32_t most_chunks = 128;  // each has bins of its own
+// What a single thread moves in one go: chunks cost it more, but they can be cancelled.
+constexpr std::uint32_t longest_move = 1u << 20;
 
 int bins_for(std::uint32_t count) { return static_cast<int>(std::min(16u, 8 + count / 16)); }
 
@@ -98,11 +101,13 @@ std::pair<Part, Part> Splitter::split(const Part& part) {
   std::array<Part, 2> sides = sides_of(part);
   const std::array<Binning, 2> binnings{binning_of(sides[0]), binning_of(sides[1])};
   for (int side = 0; side < 2; ++side) bins_[side].clear(binnings[side].bins());
-  if (pool_.thread_count() > 1 && part.count() > 2 * chunk_size)
+  if (part.count() > (pool_.thread_count() > 1 ? 2 * chunk_size : longest_move)) {
     move_in_chunks(part, sides, binnings);
-  else
+  } else {
+    if (part.count() >= large_part) workspace_.report_work(part.count());
     move_to_sides(workspace_.references(part), part.split, binnings, {sides[0].begin, sides[1].begin},
                   workspace_.buffers[sides[0].buffer], bins_);
+  }
   for (int side = 0; side < 2; ++side) {
     if (sides[side].count() <= workspace_.leaf_size) continue;
     sides[side].split = best_split(bins_[side], binnings[side]);
@@ -127,7 +132,10 @@ std::pair<Part, Part> Splitter::halve(const Part& part) {
 void Splitter::measure(Part& part) {
   const Chunks chunks(workspace_.references(part));
   std::vector<Extents> extents(chunks.count());
-  pool_.for_each(chunks.count(), [&](std::size_t i) { extents[i] = extents_of(chunks[i]); });
+  pool_.for_each(chunks.count(), [&](std::size_t i) {
+    workspace_.report_work(0);
+    extents[i] = extents_of(chunks[i]);
+  });
   for (std::size_t i = 1; i < extents.size(); ++i) extents[0].extend(extents[i]);
   part.extents = extents[0];
 }
@@ -139,6 +147,7 @@ void Splitter::find_split(Part& part) {
   const Binning binning = binning_of(part);
   std::vector<SplitBins> bins(chunks.count());
   pool_.for_each(chunks.count(), [&](std::size_t i) {
+    workspace_.report_work(0);
     bins[i].clear(binning.bins());
     for (const Reference& reference : chunks[i])
       bins[i].add(reference.box, binning.bins_of(reference.box.doubled_center()));
@@ -163,6 +172,7 @@ void Splitter::move_in_chunks(const Part& part, const std::array<Part, 2>& sides
 
   std::vector<BinPair> bins(count);
   pool_.for_each(count, [&](std::size_t i) {
+    workspace_.report_work(chunks[i].size());
     for (int side = 0; side < 2; ++side) bins[i][side].clear(binnings[side].bins());
     move_to_sides(chunks[i], part.split, binnings, places[i], workspace_.buffers[sides[0].buffer], bins[i]);
   });

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/huge_pages.h"
+#include "base/progress.h"
 #include "base/worker_pool.h"
 #include "bvh/references.h"
 #include "bvh/split_bins.h"
@@ -43,11 +44,15 @@ struct Part {
 struct Workspace {
   std::array<HugeVector<Reference>, 2> buffers;
   std::uint32_t leaf_size;
-  float scale = 1;                       // makes extents about 1
+  float scale = 1;  // makes extents about 1
+  WorkProgress* progress = nullptr;
   HugeVector<std::uint32_t> primitives;  // of leaves, in the order of the parts
 
   [[nodiscard]] std::span<Reference> references(const Part& part) {
     return std::span(buffers[part.buffer]).subspan(part.begin, part.count());
+  }
+  void report_work(std::uint64_t work) const {
+    if (progress != nullptr) progress->advance(work);
   }
   // In units of `scale`; 0 where that is no number.
   [[nodiscard]] float half_area(const Box& box) const;

@@ -199,6 +199,13 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> results
   kernel_->occluded(kernel_scene(), rays.data(), results.data(), rays.size(), kernel_scratch(kernel_->scratch_size));
 }
 
+std::size_t Tracer::memory() const {
+  std::size_t bytes = instance_tree_.memory() + merged_.memory();
+  for (const ShapeTree& tree : trees_)
+    if (const auto* mesh = std::get_if<MeshTree>(&tree.geometry)) bytes += mesh->memory();
+  return bytes;
+}
+
 std::vector<ShapeTree> Tracer::take_trees() {
   std::vector<ShapeTree> trees = std::move(trees_);
   *this = Tracer();

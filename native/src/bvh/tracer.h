@@ -37,6 +37,8 @@ class Tracer {
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results) const;
 
   [[nodiscard]] Bounds3f bounds() const { return bounds_; }
+  // Of all trees, with the triangles that they hold: bytes.
+  [[nodiscard]] std::size_t memory() const;
   // Gives the trees back, so that the next Tracer need not build them again. Leaves this one empty.
   [[nodiscard]] std::vector<ShapeTree> take_trees();
 

@@ -17,7 +17,7 @@ inline constexpr TreeReference no_reference = 0xFFFF'FFFFu;     // an unused chi
 // No path from a root to a leaf is longer: kernels have room for that much.
 inline constexpr int max_tree_depth = 64;
 
-// Four cache lines. Unused children have empty bounds, which no ray enters.
+// Four cache lines. Nodes come before those below them. Unused children have empty bounds, which no ray enters.
 struct alignas(64) TreeNode {
   float bounds[3][2][8];  // [axis][lower, upper][child]
   TreeReference children[8];

@@ -30,7 +30,7 @@ class FaultFinder {
       : tree_(tree), check_leaf_(std::move(check_leaf)), is_reached_(tree.nodes.size()) {}
 
   std::string find() {
-    if (tree_.root != no_reference) visit(tree_.root, tree_.bounds, 0);
+    if (tree_.root != no_reference) visit(tree_.root, tree_.bounds, 0, 0);
     for (std::size_t i = 0; i < is_reached_.size(); ++i)
       if (!is_reached_[i]) report("node " + std::to_string(i) + ": has no parent");
     return fault_;
@@ -41,13 +41,14 @@ class FaultFinder {
     if (fault_.empty()) fault_ = fault;
   }
 
-  void visit(TreeReference reference, const Bounds3f& box, int depth) {
+  void visit(TreeReference reference, const Bounds3f& box, TreeReference parent, int depth) {
     if (!fault_.empty()) return;
     if (is_leaf(reference)) return report(check_leaf_(reference, box));
     const std::string name = "node " + std::to_string(reference) + ": ";
     if (reference >= tree_.nodes.size()) return report(name + "does not exist");
     if (is_reached_[reference]) return report(name + "has two parents");
     if (depth >= max_tree_depth) return report(name + "is too deep");
+    if (depth > 0 && reference <= parent) report(name + "comes before its parent");
     is_reached_[reference] = true;
     const TreeNode& node = tree_.nodes[reference];
     check_order(node, name);
@@ -57,7 +58,7 @@ class FaultFinder {
         if (!(child_box.lower.x > child_box.upper.x)) report(name + "an unused child is not empty");
       } else {
         if (!box.contains(child_box) || child_box.is_empty()) report(name + "a child is not inside its parent");
-        visit(node.children[child], child_box, depth + 1);
+        visit(node.children[child], child_box, reference, depth + 1);
       }
     }
   }

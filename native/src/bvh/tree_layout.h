@@ -31,9 +31,11 @@ struct TreeLayout {
 
 // By the surface area heuristic, straight into nodes of eight. Leaves hold up to `leaf_size` primitives: 1 or 4. The
 // same for any number of threads. Changes the references.
-[[nodiscard]] TreeLayout build_sah_layout(HugeVector<Reference> references, int leaf_size, WorkerPool& pool);
+[[nodiscard]] TreeLayout build_sah_layout(HugeVector<Reference> references, int leaf_size, WorkerPool& pool,
+                                          WorkProgress* progress);
 
 // Collapses a binary tree, opening the child with the largest surface until there are eight.
-[[nodiscard]] TreeLayout collapse_to_layout(const Bvh& bvh, std::span<const Bounds3f> boxes, int leaf_size);
+[[nodiscard]] TreeLayout collapse_to_layout(const Bvh& bvh, std::span<const Bounds3f> boxes, int leaf_size,
+                                            WorkProgress* progress);
 
 }  // namespace basicrt

@@ -13,8 +13,6 @@
 namespace basicrt {
 namespace {
 
-constexpr int deep = 64;
-
 std::vector<Bounds3f> boxes_of(const Mesh& mesh) {
   std::vector<Bounds3f> boxes(mesh.triangles.size());
   for (std::uint32_t triangle = 0; triangle < boxes.size(); ++triangle)
@@ -64,7 +62,7 @@ std::uint32_t largest_leaf(const Bvh& bvh) {
 
 TEST(Bvh, is_a_sound_tree_of_anything) {
   for (const auto& [name, boxes] : boxes_of_every_kind()) {
-    const Bvh bvh = build_median_bvh(boxes, deep);
+    const Bvh bvh = build_median_bvh(boxes, {});
     EXPECT_EQ(find_bvh_fault(bvh, boxes), "") << name;
     EXPECT_EQ(bvh.nodes.empty(), boxes.empty()) << name;
   }
@@ -73,10 +71,10 @@ TEST(Bvh, is_a_sound_tree_of_anything) {
 TEST(Bvh, median_leaves_hold_two_unless_the_depth_is_cut_off) {
   test::Random rng(2);
   const std::vector<Bounds3f> boxes = boxes_of(test::soup(rng, 1000, 0.1f));
-  const Bvh full = build_median_bvh(boxes, deep);
+  const Bvh full = build_median_bvh(boxes, {});
   EXPECT_LE(largest_leaf(full), 2u);
   EXPECT_EQ(depth(full), 9);  // 1000 halved nine times is at most 2
-  const Bvh cut = build_median_bvh(boxes, 4);
+  const Bvh cut = build_median_bvh(boxes, {.max_depth = 4});
   EXPECT_EQ(depth(cut), 4);
   EXPECT_LE(largest_leaf(cut), 63u);
   EXPECT_EQ(find_bvh_fault(cut, boxes), "");
@@ -88,7 +86,7 @@ TEST(Bvh, median_splits_the_axis_of_largest_extent) {
     const Vec3f p{0, static_cast<float>(7 * i % 8), static_cast<float>(i % 2)};
     boxes.push_back({p, p});
   }
-  const Bvh bvh = build_median_bvh(boxes, deep);
+  const Bvh bvh = build_median_bvh(boxes, {});
   const BvhNode& left = bvh.nodes[1];
   const BvhNode& right = bvh.nodes[bvh.nodes[0].right_or_first];
   EXPECT_EQ(left.bounds.upper.y, 3);
@@ -97,7 +95,7 @@ TEST(Bvh, median_splits_the_axis_of_largest_extent) {
 
 TEST(Bvh, building_twice_gives_the_same_tree) {
   const std::vector<Bounds3f> boxes = boxes_of(test::flat_grid(20));
-  const Bvh a = build_median_bvh(boxes, deep), b = build_median_bvh(boxes, deep);
+  const Bvh a = build_median_bvh(boxes, {}), b = build_median_bvh(boxes, {});
   EXPECT_EQ(a.primitives, b.primitives);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
   for (std::size_t i = 0; i < a.nodes.size(); ++i) EXPECT_EQ(a.nodes[i].right_or_first, b.nodes[i].right_or_first);
@@ -106,7 +104,7 @@ TEST(Bvh, building_twice_gives_the_same_tree) {
 TEST(BvhFault, is_found_wherever_it_is_planted) {
   test::Random rng(6);
   const std::vector<Bounds3f> boxes = boxes_of(test::soup(rng, 100, 0.1f));
-  const Bvh sound = build_median_bvh(boxes, deep);
+  const Bvh sound = build_median_bvh(boxes, {});
   std::size_t leaf = 0;
   while (!sound.nodes[leaf].is_leaf()) ++leaf;
 
@@ -139,7 +137,7 @@ TEST(BvhFault, is_found_wherever_it_is_planted) {
                        "node"));
   // The same primitive in two leaves, both large enough to hold it.
   const std::vector<Bounds3f> same(4, Bounds3f{Vec3f(0), Vec3f(1)});
-  Bvh twice = build_median_bvh(same, deep);
+  Bvh twice = build_median_bvh(same, {});
   twice.primitives[1] = twice.primitives[0];
   EXPECT_TRUE(contains(find_bvh_fault(twice, same), "leaves"));
 }

@@ -16,7 +16,9 @@ TEST(NodeOrder, is_by_distance_along_the_diagonal_of_the_octant) {
       TreeNode node{};
       for (std::size_t child = 0; child < 8; ++child) {
         Bounds3f box;
+        node.children[child] = no_reference;
         if (child < static_cast<std::size_t>(count)) {
+          node.children[child] = static_cast<TreeReference>(child);
           box.extend(test::random_point(rng));
           box.extend(repetition % 2 ? box.lower : test::random_point(rng));
         }
@@ -25,7 +27,7 @@ TEST(NodeOrder, is_by_distance_along_the_diagonal_of_the_octant) {
           node.bounds[axis][1][child] = box.upper[axis];
         }
       }
-      set_order(node, count);
+      set_order(node);
       for (unsigned octant = 0; octant < 8; ++octant) {
         unsigned seen = 0;
         float last = std::numeric_limits<float>::infinity();
