@@ -25,6 +25,10 @@ STATUS_SECONDS = 0.5
 POLL_SECONDS = 0.05
 
 
+class CancelledError(Exception):
+    """The user cancelled while trees were built."""
+
+
 class BasicRTRenderEngine(bpy.types.RenderEngine):
     """Renders with BasicRT."""
 
@@ -111,7 +115,12 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
 
     def _trace(self, exported: Export, depsgraph: Any) -> None:
         """Pull tiles until there are no more or the user cancels."""
-        with self._start_session(exported, depsgraph.scene) as session:
+        try:
+            started = self._start_session(exported, depsgraph.scene)
+        except CancelledError:
+            complete_without_pixels(self)
+            return
+        with started as session:
             writer = ResultWriter(self, depsgraph.view_layer.name, session.rect)
             next_status = 0.0
             for tile in session.tiles(poll_seconds=POLL_SECONDS):
@@ -143,6 +152,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
                     exported.scene,
                     threads=b_scene.render.threads,
                     tile_size=settings_of(b_scene).tile_size,
+                    preparing=self._watch_building,
                 )
             except basicrt.SceneError as error:
                 raise ExportError(exported.in_users_words(str(error))) from error
@@ -152,6 +162,12 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         if self.warnings.warnings:
             self.report({"WARNING"}, summary(self.warnings))
         return session
+
+    def _watch_building(self, fraction: float) -> None:
+        """Called while trees are built."""
+        self.update_stats("", f"Building trees | {fraction:.0%}")
+        if self._is_cancelled():
+            raise CancelledError
 
     def _show_status(self, progress: basicrt.Progress) -> None:
         """Progress bar, status line and memory."""

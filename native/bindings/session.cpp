@@ -2,7 +2,10 @@
 // Session: Python pulls finished tiles; native threads never enter Python.
 #include "render/session.h"
 
+#include <pybind11/typing.h>
+
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 #include "base/error.h"
@@ -25,7 +28,9 @@ constexpr Seconds signal_interval{0.1};
 class BoundSession {
  public:
   BoundSession(PreparedScene scene, SessionOptions options)
-      : session_(std::make_unique<Session>(std::move(scene), options)), rect_(session_->rect()) {}
+      : tree_bytes_(scene.tracer.memory()),
+        session_(std::make_unique<Session>(std::move(scene), options)),
+        rect_(session_->rect()) {}
 
   // Waits for a tile with the GIL released. Nothing: the time is up. Ends the iteration where there are no more.
   std::optional<Tile> next_tile(Seconds timeout) {
@@ -62,6 +67,7 @@ class BoundSession {
   [[nodiscard]] bool is_stopped() const { return session_ ? session_->is_stopped() : was_stopped_; }
   [[nodiscard]] Progress progress() const { return session_ ? session_->progress() : last_progress_; }
   [[nodiscard]] PixelRect rect() const { return rect_; }
+  [[nodiscard]] std::size_t tree_bytes() const { return tree_bytes_; }
 
  private:
   std::optional<Tile> wait(Seconds timeout) {
@@ -74,6 +80,7 @@ class BoundSession {
     return session_->next_tile(timeout);
   }
 
+  std::size_t tree_bytes_;
   std::unique_ptr<Session> session_;  // none after close()
   PixelRect rect_;
   Progress last_progress_;
@@ -81,15 +88,29 @@ class BoundSession {
   int waiting_ = 0;  // threads in wait(): the session must outlive them
 };
 
-std::unique_ptr<BoundSession> start_session(BoundScene& scene, int threads, int tile_size) {
+using PreparingCallback = std::optional<py::typing::Callable<void(double)>>;
+
+// Builds the trees with the GIL released, but for asking Python for signals and telling `preparing` how far it is.
+PreparedScene prepare_for_python(const Scene& scene, Report& report, int threads, const PreparingCallback& preparing) {
+  const auto watch = [&](double fraction) {
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (preparing) (*preparing)(fraction);
+    return true;
+  };
+  const py::gil_scoped_release release;
+  return prepare_watched(scene, report, threads, watch);
+}
+
+std::unique_ptr<BoundSession> start_session(BoundScene& scene, int threads, int tile_size,
+                                            const PreparingCallback& preparing) {
   if (threads < 0) throw SceneError("Session.threads", "must be at least 0, is " + std::to_string(threads));
   if (tile_size < 1) throw SceneError("Session.tile_size", "must be at least 1, is " + std::to_string(tile_size));
   Report report;
   PreparedScene prepared;
   {
     const SceneLease lease(scene);
-    const py::gil_scoped_release release;
-    prepared = prepare(lease.scene(), report);
+    prepared = prepare_for_python(lease.scene(), report, threads, preparing);
   }
   issue_warnings(report, 1);
   return std::make_unique<BoundSession>(std::move(prepared),
@@ -156,9 +177,11 @@ void register_session(py::module_& m) {
   py::class_<BoundSession>(m, "Session", R"(Renders a scene with native threads, which start at once.
 
 Prepares the scene first and keeps its own copy of it. threads: 0 is one for each processor. The values depend on
-neither threads nor tile_size. Raises SceneError for a scene that can't be rendered, MemoryError where memory runs
+neither threads nor tile_size. preparing is called with the fraction done, from 0 to 1, several times in 100 ms while a
+long preparation goes on; what it raises ends that and is raised again. Raises SceneError for a scene that can't be rendered, MemoryError where memory runs
 out; warns with SceneWarning. As a context manager it stops and joins its threads at the end.)")
-      .def(py::init(&start_session), py::arg("scene"), py::kw_only(), py::arg("threads") = 0, py::arg("tile_size") = 64)
+      .def(py::init(&start_session), py::arg("scene"), py::kw_only(), py::arg("threads") = 0, py::arg("tile_size") = 64,
+           py::arg("preparing") = py::none())
       .def(
           "tiles",
           [](BoundSession& self, double poll_seconds) {
@@ -172,6 +195,8 @@ out; warns with SceneWarning. As a context manager it stops and joins its thread
       .def("stop", &BoundSession::stop, "No further tile is finished. Any thread may call it, at any time.")
       .def_property_readonly("is_stopped", &BoundSession::is_stopped)
       .def_property_readonly("progress", &BoundSession::progress)
+      .def_property_readonly("tree_bytes", &BoundSession::tree_bytes,
+                             "memory of the trees that rays walk, with the triangles that they hold")
       .def_property_readonly(
           "rect",
           [](const BoundSession& self) {

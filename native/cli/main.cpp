@@ -41,7 +41,8 @@ PreparedScene load(const Arguments& arguments) {
   Scene scene =
       load_scene(arguments.scene, report, {.override_json = arguments.override_json, .read_image = read_image});
   if (arguments.samples) scene.settings.samples = *arguments.samples;
-  PreparedScene prepared = prepare(scene, report);
+  PreparedScene prepared =
+      prepare_watched(scene, report, arguments.threads, [](double) { return is_interrupted == 0; });
   if (!arguments.is_quiet)
     for (const std::string& warning : report.warnings()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   return prepared;
@@ -59,10 +60,7 @@ int run(const Arguments& arguments) {
   }
   session.stop();
   if (!arguments.is_quiet) show_progress(session.progress(), true);
-  if (is_interrupted) {
-    std::fprintf(stderr, "renderer: interrupted, no picture is written\n");
-    return exit_interrupted;
-  }
+  if (is_interrupted) throw Cancelled();
   write_exr(arguments.output, film,
             {{"software", "BasicRT " BASICRT_VERSION}, {"samples", std::to_string(settings.samples)}});
   return 0;
@@ -82,6 +80,9 @@ int main(int argc, char** argv) {
   } catch (const UsageError& error) {
     std::fprintf(stderr, "renderer: %s\n%s", error.what(), usage);
     return 2;
+  } catch (const Cancelled&) {
+    std::fprintf(stderr, "renderer: interrupted, no picture is written\n");
+    return exit_interrupted;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "renderer: there is not enough memory for this scene\n");
   } catch (const std::exception& error) {

@@ -2,7 +2,7 @@
 """A render that can't be made says why in one message, raises, and leaves no file."""
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -130,6 +130,19 @@ def test_cancelling_stops_early(picture: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(BasicRTRenderEngine, "_is_cancelled", lambda _self: next(polls) >= 3)
     bpy.ops.render.render()
     assert next(polls) <= 5, "went on after it was cancelled"
+
+
+def test_cancelling_while_trees_are_built(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    add_plane()
+    add_camera()
+
+    def build_slowly(*_args: Any, preparing: Callable[[float], None], **_options: Any) -> None:
+        preparing(0.5)
+        pytest.fail("went on after it was cancelled")
+
+    monkeypatch.setattr(basicrt, "Session", build_slowly)
+    monkeypatch.setattr(BasicRTRenderEngine, "_is_cancelled", lambda _self: True)
+    bpy.ops.render.render()
 
 
 def test_what_is_not_supported_is_shown_after_the_render(tmp_path: Path) -> None:

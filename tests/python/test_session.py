@@ -289,6 +289,39 @@ def test_python_threads_run_while_a_scene_is_prepared() -> None:
     assert pause < max(0.5 * seconds, 0.1)
 
 
+def large_scene() -> basicrt.Scene:
+    scene = still_life(samples=1)
+    add(scene, bumpy(1000), basicrt.DiffuseShader())
+    return scene
+
+
+def test_preparing_tells_how_far_it_is_and_the_tree_has_a_size() -> None:
+    fractions: list[float] = []
+    with Session(large_scene(), preparing=fractions.append) as session:
+        assert session.tree_bytes > 2_000_000 * 40
+    assert fractions
+    assert fractions == sorted(fractions)
+    assert 0 <= fractions[0] <= fractions[-1] <= 1
+
+
+def test_what_preparing_raises_ends_it_soon() -> None:
+    class EnoughError(Exception):
+        pass
+
+    raised = 0.0
+
+    def enough(_fraction: float) -> None:
+        nonlocal raised
+        raised = time.monotonic()
+        raise EnoughError
+
+    scene = large_scene()
+    with pytest.raises(EnoughError):
+        Session(scene, preparing=enough)
+    assert time.monotonic() - raised < STOP_SECONDS
+    scene.settings.samples = 1  # nobody holds the scene any more
+
+
 def test_nobody_changes_a_scene_while_it_is_prepared() -> None:
     scene = basicrt.Scene()
     add(scene, bumpy(700), basicrt.DiffuseShader())

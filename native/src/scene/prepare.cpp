@@ -2,20 +2,53 @@
 // Builds the trees and the lights of a scene.
 #include "scene/prepare.h"
 
+#include <chrono>
 #include <cstddef>
+#include <future>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "bsdf/bsdf.h"
 
 namespace basicrt {
 namespace {
 
-BvhConfig bvh_config(const RenderSettings& settings) {
+// How often prepare_watched() calls.
+constexpr std::chrono::milliseconds watch_interval{40};
+// Shapes with fewer triangles are built side by side, each by one thread.
+constexpr std::size_t large_mesh = 32768;
+
+BvhConfig bvh_config(const RenderSettings& settings, const PrepareOptions& options) {
   BvhConfig config;
   config.builder = settings.bvh_builder;
+  config.threads = options.threads;
+  config.progress = options.progress;
   return config;
+}
+
+std::size_t triangle_count(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return mesh ? mesh->triangles.size() : 0;
+}
+
+// Large shapes one by one with all threads, then the small ones side by side.
+void build_trees(const std::vector<Shape>& shapes, const std::vector<std::uint32_t>& to_build, const BvhConfig& config,
+                 std::vector<ShapeTree>& trees) {
+  if (config.progress)
+    for (const std::uint32_t i : to_build) config.progress->expect(build_work(triangle_count(shapes[i])));
+  std::vector<std::uint32_t> small;
+  for (const std::uint32_t i : to_build) {
+    if (triangle_count(shapes[i]) < large_mesh)
+      small.push_back(i);
+    else
+      trees[i] = build_shape_tree(shapes[i], config);
+  }
+  BvhConfig alone = config;
+  alone.threads = 1;
+  parallel_for(small.size(), config.threads,
+               [&](std::size_t i) { trees[small[i]] = build_shape_tree(shapes[small[i]], alone); });
 }
 
 // The shape as it can be traced: perhaps an empty mesh.
@@ -33,27 +66,29 @@ std::vector<bool> find_instanced_shapes(const Scene& scene) {
 // Copies the shapes and builds a tree for each, taking over from `previous` what has not changed. An empty mesh keeps its
 // place and is never instanced: whoever left out its instances (the reader of scene files) has told of it already.
 std::vector<ShapeTree> prepare_shapes(const Scene& scene, Report& report, PreparedScene& previous,
-                                      PreparedScene& prepared) {
-  const BvhConfig config = bvh_config(scene.settings);
+                                      PreparedScene& prepared, const BvhConfig& config) {
   const bool is_same_builder = previous.settings.bvh_builder == scene.settings.bvh_builder;
   const std::vector<bool> is_instanced = find_instanced_shapes(scene);
   std::vector<ShapeTree> previous_trees = previous.tracer.take_trees();
 
-  std::vector<ShapeTree> trees;
+  std::vector<ShapeTree> trees(scene.shapes.size());
+  std::vector<std::uint32_t> to_build;
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
     const std::uint64_t revision = scene.shapes.revision(Id<Shape>{i});
     prepared.shape_revisions.push_back(revision);
     if (is_same_builder && i < previous_trees.size() && previous.shape_revisions[i] == revision) {
       prepared.shapes.push_back(std::move(previous.shapes[i]));
-      trees.push_back(std::move(previous_trees[i]));
+      trees[i] = std::move(previous_trees[i]);
       continue;
     }
+    if (config.progress) config.progress->advance(0);  // copying takes time too
     const std::string item = "shapes[" + std::to_string(i) + "]";
     prepared.shapes.push_back(usable_shape(scene.shapes[i], item, report));
     if (is_instanced[i] && is_empty(prepared.shapes.back()))
       report.warn(item + ": the mesh has no triangles and is left out");
-    trees.push_back(build_shape_tree(prepared.shapes.back(), config));
+    to_build.push_back(i);
   }
+  build_trees(prepared.shapes, to_build, config, trees);
   return trees;
 }
 
@@ -92,7 +127,8 @@ std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::u
 
 }  // namespace
 
-PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous) {
+PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous, PrepareOptions options) {
+  const BvhConfig config = bvh_config(scene.settings, options);
   validate(scene);
 
   PreparedScene prepared;
@@ -103,7 +139,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     prepared.materials.emplace_back(scene.materials[i], prepared.textures);
   prepared.materials.emplace_back(default_material(), prepared.textures);
 
-  std::vector<ShapeTree> trees = prepare_shapes(scene, report, previous, prepared);
+  std::vector<ShapeTree> trees = prepare_shapes(scene, report, previous, prepared, config);
 
   std::vector<TracedInstance> traced;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -124,7 +160,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   }
   for (const PreparedMaterial& prepared_material : prepared.materials)
     prepared.has_transparency = prepared.has_transparency || is_transparent(prepared_material.material);
-  prepared.tracer = Tracer(std::move(trees), std::move(traced), bvh_config(scene.settings));
+  prepared.tracer = Tracer(std::move(trees), std::move(traced), config);
 
   std::vector<Light> lamps;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) lamps.push_back(scene.lights[i]);
@@ -133,6 +169,22 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i)) emitters.push_back(std::move(*emitter));
   prepared.lights = LightSet(std::move(lamps), std::move(emitters), scene.environment, prepared.tracer.bounds());
   return prepared;
+}
+
+PreparedScene prepare_watched(const Scene& scene, Report& report, int threads,
+                              const std::function<bool(double)>& watch) {
+  WorkProgress progress;
+  std::future<PreparedScene> prepared = std::async(
+      std::launch::async, [&] { return prepare(scene, report, {}, {.threads = threads, .progress = &progress}); });
+  try {
+    while (prepared.wait_for(watch_interval) != std::future_status::ready)
+      if (!watch(progress.fraction())) progress.cancel();
+  } catch (...) {
+    progress.cancel();
+    prepared.wait();
+    throw;
+  }
+  return prepared.get();
 }
 
 }  // namespace basicrt

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
+#include "base/progress.h"
 #include "base/report.h"
 #include "bsdf/prepared_material.h"
 #include "bvh/tracer.h"
@@ -40,8 +42,20 @@ struct PreparedScene {
   }
 };
 
+struct PrepareOptions {
+  int threads = 0;                   // 0: one for each processor; the outcome is the same for any number
+  WorkProgress* progress = nullptr;  // hears how far the trees are, and can cancel them
+};
+
 // Validates, then builds the trees and the lights. `previous`, the outcome of an earlier call for the same Scene object,
-// lends the trees of shapes that have not changed since. Throws SceneError.
-[[nodiscard]] PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous = {});
+// lends the trees of shapes that have not changed since. Throws SceneError, and
+// Cancelled where `options.progress` asks for it.
+[[nodiscard]] PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous = {},
+                                    PrepareOptions options = {});
+
+// The same on a thread of its own, while this one calls `watch` with the fraction done, several times in 100 ms. Where
+// that returns false the work ends and Cancelled is thrown; what it throws ends the work too.
+[[nodiscard]] PreparedScene prepare_watched(const Scene& scene, Report& report, int threads,
+                                            const std::function<bool(double)>& watch);
 
 }  // namespace basicrt

@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
 #include "base/error.h"
 
 namespace basicrt {
@@ -65,6 +70,93 @@ TEST(Prepare, a_changed_shape_is_built_again_and_an_unchanged_one_is_still_hit) 
   EXPECT_TRUE(first_hit(prepared, {0.2f, 0.2f, 1}, {0, 0, -1}).is_hit());
   EXPECT_FALSE(first_hit(prepared, {10.2f, 0.2f, 1}, {0, 0, -1}).is_hit());
   EXPECT_TRUE(first_hit(prepared, {20.2f, 0.2f, 1}, {0, 0, -1}).is_hit());
+}
+
+// A grid of 2 * cells^2 triangles over bumps.
+Mesh large_mesh(std::uint32_t cells) {
+  Mesh mesh;
+  for (std::uint32_t y = 0; y <= cells; ++y)
+    for (std::uint32_t x = 0; x <= cells; ++x) {
+      const auto u = static_cast<float>(x), v = static_cast<float>(y);
+      mesh.positions.push_back({u, v, std::sin(u) * std::cos(v)});
+    }
+  for (std::uint32_t y = 0; y < cells; ++y)
+    for (std::uint32_t x = 0; x < cells; ++x) {
+      const std::uint32_t corner = y * (cells + 1) + x;
+      mesh.triangles.push_back({corner, corner + 1, corner + cells + 2});
+      mesh.triangles.push_back({corner, corner + cells + 2, corner + cells + 1});
+    }
+  return mesh;
+}
+
+TEST(PrepareWatched, gives_what_prepare_gives_and_a_fraction_that_never_falls) {
+  const Scene scene = scene_of(large_mesh(700));
+  Report report;
+  double last = 0;
+  int calls = 0;
+  const PreparedScene prepared = prepare_watched(scene, report, 1, [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    ++calls;
+    return true;
+  });
+  EXPECT_GT(calls, 0);
+  EXPECT_GT(last, 0);
+  const PreparedScene expected = prepare(scene, report);
+  EXPECT_EQ(prepared.tracer.memory(), expected.tracer.memory());
+  const Hit hit = first_hit(prepared, {300.3f, 200.2f, 5}, {0, 0, -1});
+  EXPECT_EQ(hit.primitive, first_hit(expected, {300.3f, 200.2f, 5}, {0, 0, -1}).primitive);
+  EXPECT_TRUE(hit.is_hit());
+}
+
+TEST(PrepareWatched, ends_soon_after_it_is_cancelled) {
+  using Clock = std::chrono::steady_clock;
+  const Scene scene = scene_of(large_mesh(1000));
+  for (const BvhBuilder builder : {BvhBuilder::median, BvhBuilder::binned_sah}) {
+    Scene copy = scene;
+    copy.settings.bvh_builder = builder;
+    Report report;
+    // Other programs may hold up any one try.
+    double shortest = std::numeric_limits<double>::infinity();
+    for (int attempt = 0; attempt < 5 && shortest > 0.1; ++attempt) {
+      Clock::time_point cancelled;
+      EXPECT_THROW((void)prepare_watched(copy, report, 2,
+                                         [&](double) {
+                                           cancelled = Clock::now();
+                                           return false;
+                                         }),
+                   Cancelled);
+      shortest = std::min(shortest, std::chrono::duration<double>(Clock::now() - cancelled).count());
+    }
+    EXPECT_LT(shortest, 0.1);
+  }
+}
+
+TEST(PrepareWatched, ends_with_what_the_watch_throws) {
+  const Scene scene = scene_of(large_mesh(700));
+  Report report;
+  const auto watch = [](double) -> bool { throw std::runtime_error("enough"); };
+  EXPECT_THROW((void)prepare_watched(scene, report, 1, watch), std::runtime_error);
+}
+
+TEST(Prepare, is_the_same_for_any_number_of_threads) {
+  Scene scene = scene_of(large_mesh(150));
+  for (int i = 0; i < 40; ++i)
+    scene.instances.append(
+        {.name = "", .shape = scene.shapes.append(one_triangle(10.0f * static_cast<float>(i))), .object_to_world = {}});
+  Report report;
+  const PreparedScene one = prepare(scene, report, {}, {.threads = 1}),
+                      four = prepare(scene, report, {}, {.threads = 4});
+  EXPECT_EQ(one.tracer.memory(), four.tracer.memory());
+  for (int i = 0; i < 40; ++i) {
+    const Vec3f origin{10.0f * static_cast<float>(i) + 0.2f, 0.3f, 5};
+    const Hit a = first_hit(one, origin, {0, 0, -1}), b = first_hit(four, origin, {0, 0, -1});
+    EXPECT_TRUE(a.is_hit());
+    EXPECT_EQ(a.instance, b.instance);
+    EXPECT_EQ(a.primitive, b.primitive);
+    EXPECT_EQ(a.t, b.t);
+  }
 }
 
 }  // namespace
