@@ -1643,7 +1643,8 @@ class Session:
     Renders a scene with native threads, which start at once.
 
     Prepares the scene first and keeps its own copy of it. threads: 0 is one for each processor. The values depend on
-    neither threads nor tile_size. Raises SceneError for a scene that can't be rendered, MemoryError where memory runs
+    neither threads nor tile_size. preparing is called with the fraction done, from 0 to 1, several times in 100 ms while a
+    long preparation goes on; what it raises ends that and is raised again. Raises SceneError for a scene that can't be rendered, MemoryError where memory runs
     out; warns with SceneWarning. As a context manager it stops and joins its threads at the end.
     """
     def __enter__(self) -> Session: ...
@@ -1654,6 +1655,7 @@ class Session:
         *,
         threads: typing.SupportsInt | typing.SupportsIndex = 0,
         tile_size: typing.SupportsInt | typing.SupportsIndex = 64,
+        preparing: collections.abc.Callable[[float], None] | None = None,
     ) -> None: ...
     def stop(self) -> None:
         """
@@ -1674,6 +1676,11 @@ class Session:
     def rect(self) -> tuple[int, int, int, int]:
         """
         (x, y, width, height) of the border or the whole picture, pixels, (0, 0) at the lower left
+        """
+    @property
+    def tree_bytes(self) -> int:
+        """
+        memory of the trees that rays walk, with the triangles that they hold
         """
 
 def load_scene(
