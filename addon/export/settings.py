@@ -62,6 +62,7 @@ def convert(
 
     settings.samples = b_view_layer.samples or own.samples
     settings.seed = own.seed
+    settings.sampler = own.sampler.lower()
     settings.max_bounces = own.max_bounces
     settings.diffuse_bounces = own.diffuse_bounces
     settings.glossy_bounces = own.glossy_bounces

@@ -15,6 +15,10 @@ FILTERS = (
     ("MITCHELL", "Mitchell-Netravali", "Sharp, with negative lobes"),
     ("BOX", "Box", "A pixel is the mean over its own square; the width is one pixel"),
 )
+SAMPLERS = (
+    ("SOBOL", "Sobol", "A pixel's samples are spread evenly: less noise, least at powers of two"),
+    ("INDEPENDENT", "Independent", "Each sample is random by itself; for comparisons"),
+)
 BVH_BUILDERS = (
     ("BINNED_SAH", "Binned SAH", "Trees that are fast to trace"),
     ("MEDIAN", "Median Split", "The reference: simple, slower to trace"),
@@ -33,6 +37,7 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
     if TYPE_CHECKING:
         samples: int
         seed: int
+        sampler: str
         max_bounces: int
         diffuse_bounces: int
         glossy_bounces: int
@@ -57,6 +62,12 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
             description="Another seed gives other noise, the same seed the same picture",
             default=0,
             min=0,
+        )
+        sampler: EnumProperty(
+            name="Sampler",
+            description="How a pixel's samples are spread over all that they may meet",
+            items=SAMPLERS,
+            default="SOBOL",
         )
         max_bounces: _bounces("Total", 12, "Most times a path is scattered, whatever it meets")
         diffuse_bounces: _bounces("Diffuse", 4, "Most diffuse reflections of a path")

@@ -44,6 +44,7 @@ class BASICRT_RENDER_PT_sampling(_Panel, bpy.types.Panel):
         column = self.column()
         column.prop(settings_of(context.scene), "samples")
         column.prop(settings_of(context.scene), "seed")
+        column.prop(settings_of(context.scene), "sampler")
 
 
 class BASICRT_RENDER_PT_light_paths(_Panel, bpy.types.Panel):

@@ -329,6 +329,7 @@ def test_settings_arrive() -> None:
     scene = bpy.context.scene
     own = scene.basicrt
     own.samples, own.seed, own.bvh_builder = 7, 11, "MEDIAN"
+    own.sampler = "INDEPENDENT"
     own.max_bounces, own.diffuse_bounces, own.glossy_bounces = 9, 8, 7
     own.transmission_bounces, own.transparent_bounces = 6, 5
     own.filter_type, own.filter_width, own.film_exposure = "GAUSSIAN", 2.5, 3.0
@@ -336,6 +337,7 @@ def test_settings_arrive() -> None:
     settings = export().settings
     assert (settings.width, settings.height) == (16, 16)
     assert (settings.samples, settings.seed, settings.bvh_builder) == (7, 11, "median")
+    assert settings.sampler == "independent"
     assert (settings.max_bounces, settings.diffuse_bounces, settings.glossy_bounces) == (9, 8, 7)
     assert (settings.transmission_bounces, settings.transparent_bounces) == (6, 5)
     assert (settings.filter_type, settings.filter_radius, settings.exposure) == ("gaussian", 2.5, 3)

@@ -1173,6 +1173,7 @@ class RenderSettings:
     border_height: pixels; 0 is the whole height; at least 0
     samples: paths for each pixel; in [1, 16777216]
     seed: another seed, other noise
+    sampler: how a pixel's samples are spread: evenly, or each by chance
     film_transparent: the background has alpha 0
     exposure: multiplies radiance; at least 0
     integrator: how light is computed
@@ -1200,6 +1201,7 @@ class RenderSettings:
         border_height: int = 0,
         samples: int = 64,
         seed: int = 0,
+        sampler: str = "sobol",
         film_transparent: bool = False,
         exposure: float = 1.0,
         integrator: str = "path",
@@ -1363,6 +1365,13 @@ class RenderSettings:
         """
     @rr_threshold.setter
     def rr_threshold(self, value: float) -> None: ...
+    @property
+    def sampler(self) -> str:
+        """
+        how a pixel's samples are spread: evenly, or each by chance
+        """
+    @sampler.setter
+    def sampler(self, value: str) -> None: ...
     @property
     def samples(self) -> int:
         """

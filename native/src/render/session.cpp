@@ -116,9 +116,9 @@ std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrato
     for (int x = 0; x < tile.width; ++x) {
       const Vec2i pixel{tile.x + x, tile.y + y};
       const Vec2f center{static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f};
-      const std::uint64_t key = Sampler::make_pixel_key(pixel, static_cast<std::uint64_t>(settings.seed));
+      const Sampler pixel_sampler(settings.sampler, pixel, static_cast<std::uint64_t>(settings.seed));
       for (int sample = 0; sample < settings.samples; ++sample) {
-        Sampler sampler(key, static_cast<std::uint32_t>(sample));
+        Sampler sampler = pixel_sampler.at_sample(static_cast<std::uint32_t>(sample));
         const FilterSample place = filter.sample(sampler.next_2d());
         paths.add(scene.view.ray(center + place.offset), sampler);
         places.push_back({x, y, place.is_negative});

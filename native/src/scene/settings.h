@@ -13,6 +13,7 @@
 #include "film/film.h"
 #include "math/color.h"
 #include "sampling/filter.h"
+#include "sampling/sampler.h"
 
 namespace basicrt {
 
@@ -30,6 +31,7 @@ struct RenderSettings {
   int border_x = 0, border_y = 0, border_width = 0, border_height = 0;
   int samples = 64;
   std::int64_t seed = 0;
+  SamplerKind sampler = SamplerKind::sobol;
   FilterSettings filter;
   PassLayout passes;
   bool is_film_transparent = false;
@@ -57,6 +59,7 @@ struct RenderSettings {
         field("border_height", &S::border_height, "pixels; 0 is the whole height", at_least(0)),
         field("samples", &S::samples, "paths for each pixel", within(1, 1 << 24)),
         field("seed", &S::seed, "another seed, other noise"),
+        field("sampler", &S::sampler, "how a pixel's samples are spread: evenly, or each by chance"),
         field("film_transparent", &S::is_film_transparent, "the background has alpha 0"),
         field("exposure", &S::exposure, "multiplies radiance", at_least(0)),
         field("integrator", &S::integrator, "how light is computed"),

@@ -251,7 +251,8 @@ TEST(Integrator, a_batch_of_one_gives_the_same_sample) {
   Report report;
   const PreparedScene prepared = prepare(scene, report);
   CameraPaths paths;
-  for (std::uint32_t i = 0; i < 100; ++i) paths.add(prepared.view.ray({4, 4}), Sampler(7, i));
+  for (std::uint32_t i = 0; i < 100; ++i)
+    paths.add(prepared.view.ray({4, 4}), Sampler(SamplerKind::sobol, {4, 4}, 0).at_sample(i));
   std::vector<PixelSample> together(paths.size());
   const std::unique_ptr<Integrator> integrator = make_integrator(prepared);
   integrator->render(paths, together);
