@@ -71,11 +71,13 @@ def message_of(error: BaseException) -> str:
 def caught(on_error: Callable[[str], None]) -> Iterator[None]:
     """Around the body of each of Blender's callbacks: Blender swallows exceptions, so none may leave.
 
-    The traceback is logged and `on_error(message)` called. (No decorator: Blender counts a
-    callback's arguments and refuses `*args`.)
+    The traceback is logged and `on_error(message)` called; an interrupt is no fault to trace. (No
+    decorator: Blender counts a callback's arguments and refuses `*args`.)
     """
     try:
         yield
-    except (Exception, KeyboardInterrupt) as error:
+    except KeyboardInterrupt as interrupt:
+        on_error(message_of(interrupt))
+    except Exception as error:
         log.error("%s", error, exc_info=error)
         on_error(message_of(error))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A render that can't be made says why in one message, raises, and leaves no file."""
 
+import signal
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -99,6 +101,34 @@ def test_interrupt(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     add_camera()
     monkeypatch.setattr(basicrt, "Session", raise_from(KeyboardInterrupt()))
     assert "BasicRT: interrupted" in fail_to_render()
+
+
+INTERRUPTED_RENDER = """
+import signal, sys
+import basicrt
+from basicrt.cli import main
+
+basicrt.Session = lambda *_, **__: signal.raise_signal(signal.SIGINT)
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def test_an_interrupt_of_the_command_line_is_told_from_a_failure(tmp_path: Path) -> None:
+    blend = Path(__file__).resolve().parents[2] / "scenes/blender/cornell_glass.blend"
+    command = [sys.executable, "-c", INTERRUPTED_RENDER, "render", blend, "-o", tmp_path / "o.exr"]
+    done = subprocess.run(
+        command,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+        # A shell starts what runs in its background with interrupts ignored, and children inherit that.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert done.returncode == 130, done.stderr
+    assert "basicrt: interrupted\n" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not list(tmp_path.iterdir())
 
 
 def test_our_own_mistakes(picture: Path, monkeypatch: pytest.MonkeyPatch) -> None:

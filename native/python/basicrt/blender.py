@@ -11,6 +11,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 from .files import replacing
@@ -34,12 +35,12 @@ def render_blend(
     """Renders the file's scene as Blender would: an .exr scene-linear in 32 bits, a .png with its view transform.
 
     What is None (and `threads` 0) stays as the file has it. The output appears whole or not at all. Raises
-    BlenderError.
+    BlenderError, and KeyboardInterrupt where that is why there is no picture.
     """
     if not blend.is_file():
         raise BlenderError(f"{blend}: no such file")
     bpy = _import_bpy()
-    with _registered_add_on(), _silent_stdout():
+    with _registered_add_on(), _silent_stdout(), _interrupts_told_from_failures():
         _call(bpy.ops.wm.open_mainfile, filepath=str(blend.resolve()), load_ui=False)
         scene = bpy.context.scene
         scene.render.engine = ENGINE
@@ -74,20 +75,49 @@ def _import_bpy() -> Any:
     return bpy
 
 
+def _interrupts_raise() -> bool:
+    """Whether Ctrl-C is a KeyboardInterrupt in this thread: not ignored, and not handled by who called us."""
+    is_main = threading.current_thread() is threading.main_thread()
+    return is_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
 @contextmanager
 def _deferred_interrupts() -> Iterator[None]:
     """Ctrl-C waits: in the middle of its import it would crash Blender."""
-    if threading.current_thread() is not threading.main_thread():
+    if not _interrupts_raise():
         yield
         return
     interrupts: list[int] = []
-    previous = signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
+    signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, previous)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     if interrupts:
         raise KeyboardInterrupt
+
+
+@contextmanager
+def _interrupts_told_from_failures() -> Iterator[None]:
+    """Ctrl-C in one of Blender's callbacks ends as a render that failed; here it is a KeyboardInterrupt again."""
+    if not _interrupts_raise():
+        yield
+        return
+    interrupts: list[int] = []
+
+    def note(number: int, frame: FrameType | None) -> None:
+        interrupts.append(number)
+        signal.default_int_handler(number, frame)
+
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield
+    except BlenderError as error:
+        if interrupts:
+            raise KeyboardInterrupt from error
+        raise
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @contextmanager
