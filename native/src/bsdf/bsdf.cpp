@@ -5,26 +5,6 @@
 #include <algorithm>
 
 namespace basicrt {
-// All lobes, or all but one.
-inline LobeValue Bsdf::eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except) const {
-  LobeValue sum;
-  for (const WeightedLobe& weighted : lobes_.used()) {
-    if (&weighted == except) continue;
-    const LobeValue lobe = std::visit([&](const auto& l) { return l.eval(wo, wi); }, weighted.lobe);
-    sum.value += weighted.weight * lobe.value;
-    sum.pdf += weighted.selection / selection_ * lobe.pdf;
-  }
-  return sum;
-}
-
-BsdfValue Bsdf::eval(Vec3f wo, Vec3f wi) const {
-  const Side side = find_side(wo);
-  const Vec3f local_wi = frame_.to_local(wi * side.sign);
-  if (leaks(side, wi, local_wi)) return {};
-  const LobeValue sum = eval_lobes(side.wo, local_wi, nullptr);
-  return {sum.value, sum.pdf};
-}
-
 std::optional<BsdfSample> Bsdf::sample(Vec3f wo, float choice, Vec2f u) const {
   const std::span<const WeightedLobe> lobes = lobes_.used();
   if (lobes.empty()) return std::nullopt;

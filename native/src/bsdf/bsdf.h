@@ -129,6 +129,26 @@ class Bsdf {
   LobeList lobes_;
 };
 
+// All lobes, or all but one.
+inline LobeValue Bsdf::eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except) const {
+  LobeValue sum;
+  for (const WeightedLobe& weighted : lobes_.used()) {
+    if (&weighted == except) continue;
+    const LobeValue lobe = std::visit([&](const auto& l) { return l.eval(wo, wi); }, weighted.lobe);
+    sum.value += weighted.weight * lobe.value;
+    sum.pdf += weighted.selection / selection_ * lobe.pdf;
+  }
+  return sum;
+}
+
+inline BsdfValue Bsdf::eval(Vec3f wo, Vec3f wi) const {
+  const Side side = find_side(wo);
+  const Vec3f local_wi = frame_.to_local(wi * side.sign);
+  if (leaks(side, wi, local_wi)) return {};
+  const LobeValue sum = eval_lobes(side.wo, local_wi, nullptr);
+  return {sum.value, sum.pdf};
+}
+
 // What a material does at a surface point seen from wo: scatters, emits, and lets through unscattered.
 struct SurfaceShading {
   Bsdf bsdf;

@@ -56,11 +56,11 @@ class CameraView {
   CameraView(const Camera& camera, Vec2i film_size);
 
   [[nodiscard]] Ray ray(Vec2f pixel) const {
-    const Vec3f direction = normalize(direction_ + direction_dx_ * pixel.x + direction_dy_ * pixel.y);
-    const float distance_per_depth = 1 / dot(direction, axis_);
+    const Vec3f towards = direction_ + direction_dx_ * pixel.x + direction_dy_ * pixel.y;
+    const float reach = length(towards), distance_per_depth = reach * (1 / dot(towards, axis_));
     return {.origin = origin_ + origin_dx_ * pixel.x + origin_dy_ * pixel.y,
             .t_min = clip_near_ * distance_per_depth,
-            .direction = direction,
+            .direction = towards * (1 / reach),
             .t_max = clip_far_ * distance_per_depth,
             .kinds = ray_camera};
   }

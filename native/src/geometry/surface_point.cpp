@@ -49,20 +49,20 @@ SurfacePoint make_point(const Geometry& geometry, const Placement& placement, co
   const WorldPoint world = placement.is_translation
                                ? translate(local, placement.object_to_world.column(3))
                                : transform(local, placement.object_to_world, placement.world_to_object);
-  SurfacePoint point;
-  point.position = Vec3f(world.position);
-  point.position_error = add_float_rounding(world.position, world.error);
-  point.geometric_normal = Vec3f(direction_or(world.normal, {0, 0, 1}));
-  const Vec3f shading_normal = direction_or(world.shading_normal, point.geometric_normal);
-  point.shading_normal = dot(shading_normal, point.geometric_normal) < 0 ? -shading_normal : shading_normal;
-  point.uv = local.uv;
-  point.barycentrics = local.barycentrics;
-  point.t = static_cast<float>(local.t);
-  point.instance = hit.instance;
-  point.primitive = std::is_same_v<Geometry, Mesh> ? hit.primitive : Hit::none;
-  point.material_slot = local.material_slot;
-  point.is_backfacing = local.is_backfacing;
-  return point;
+  const auto normal = Vec3f(direction_or(world.normal, {0, 0, 1}));
+  const Vec3f shading_normal = direction_or(world.shading_normal, normal);
+  return {.position = Vec3f(world.position),
+          .position_error = add_float_rounding(world.position, world.error),
+          .geometric_normal = normal,
+          .shading_normal = dot(shading_normal, normal) < 0 ? -shading_normal : shading_normal,
+          .uv = local.uv,
+          .barycentrics = local.barycentrics,
+          .t = static_cast<float>(local.t),
+          .instance = hit.instance,
+          .primitive = std::is_same_v<Geometry, Mesh> ? hit.primitive : Hit::none,
+          .material_slot = local.material_slot,
+          .is_backfacing = local.is_backfacing,
+          .derivatives = {}};
 }
 
 }  // namespace

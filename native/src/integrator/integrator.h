@@ -19,7 +19,7 @@ struct CameraPaths {
   std::vector<Sampler> samplers;
 
   void add(const Ray& ray, const Sampler& sampler) {
-    rays.emplace_back() = ray;
+    rays.push_back(ray);
     samplers.push_back(sampler);
   }
   void clear() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/append_result.h"
 #include "integrator/batch.h"
 #include "integrator/hit_shading.h"
 #include "math/constants.h"
@@ -68,7 +69,7 @@ void IntersectionTest::gather_light(const Path& path, const Ray& ray, const Surf
   const Color reflected = bsdf.eval(-ray.direction, wi).value;
   if (is_black(reflected)) return;
   const Color irradiance = settings.point_light_flux * (inv_pi / 4 * inverse_distance * inverse_distance);
-  shadow_rays_.emplace_back() = spawn_shadow_ray(point, wi, distance, ray.time);
+  append_result(shadow_rays_, [&] { return spawn_shadow_ray(point, wi, distance, ray.time); });
   shadow_tests_.push_back({path.sample, path.throughput * reflected * irradiance});
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/append_result.h"
 #include "integrator/batch.h"
 #include "integrator/hit_shading.h"
 
@@ -120,7 +121,7 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
   const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, reflected.pdf);
   const Color radiance = path.throughput * reflected.value * light->radiance * (weight / light->pdf);
   if (is_black(radiance)) return;
-  shadow_rays_.emplace_back() = spawn_shadow_ray(point, light->wi, light->distance, ray.time);
+  append_result(shadow_rays_, [&] { return spawn_shadow_ray(point, light->wi, light->distance, ray.time); });
   connections_.push_back({path.sample, radiance, path.bounces.transparent});
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/append_result.h"
 #include "base/parallel_for.h"
 #include "integrator/integrator.h"
 #include "render/tile_order.h"
@@ -120,7 +121,8 @@ std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrato
       for (int sample = 0; sample < settings.samples; ++sample) {
         Sampler sampler = pixel_sampler.at_sample(static_cast<std::uint32_t>(sample));
         const FilterSample place = filter.sample(sampler.next_2d());
-        paths.add(scene.view.ray(center + place.offset), sampler);
+        append_result(paths.rays, [&] { return scene.view.ray(center + place.offset); });
+        paths.samplers.push_back(sampler);
         places.push_back({x, y, place.is_negative});
         if (paths.size() < batch_size) continue;
         flush();
