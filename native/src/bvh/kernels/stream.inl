@@ -102,20 +102,17 @@ inline void prefetch_item(const Slot& slot, TreeReference reference) {
 }
 
 // To whom the triangle belongs.
-inline void find_owner(const KernelScene& scene, KernelHit& hit) {
-  if (hit.instance == ~0u) return;
-  const TriangleOwner* owners = scene.instances[hit.instance].owners;
-  if (owners == nullptr) return;
-  const TriangleOwner owner = owners[hit.primitive];
-  hit.instance = owner.instance;
-  hit.primitive = owner.primitive;
+inline TriangleOwner owner_of(const KernelScene& scene, std::uint32_t instance, std::uint32_t primitive) {
+  const TriangleOwner* owners = instance == ~0u ? nullptr : scene.instances[instance].owners;
+  return owners == nullptr ? TriangleOwner{instance, primitive} : owners[primitive];
 }
 
 // Of equal distances the lower numbers win, so that the answer doesn't depend on the order of the visits.
-[[gnu::noinline]] inline bool has_lower_numbers(const KernelScene& scene, KernelHit hit, KernelHit other) {
-  find_owner(scene, hit);
-  find_owner(scene, other);
-  return hit.instance != other.instance ? hit.instance < other.instance : hit.primitive < other.primitive;
+[[gnu::noinline]] inline bool has_lower_numbers(const KernelScene& scene, const KernelHit& hit,
+                                                const KernelHit& other) {
+  const TriangleOwner a = owner_of(scene, hit.instance, hit.primitive);
+  const TriangleOwner b = owner_of(scene, other.instance, other.primitive);
+  return a.instance != b.instance ? a.instance < b.instance : a.primitive < b.primitive;
 }
 
 inline bool is_better(const KernelScene& scene, const KernelHit& hit, const KernelHit& than) {
@@ -214,18 +211,20 @@ class Stream {
 
   [[gnu::noinline]] void visit_blocks() {
     const auto visited = queues_.take(2);
-    Queue improved, going_on, done;
+    Queue hit, missed;
     for (Slot* slot : visited) {
-      const TriangleBlock& block =
-          reinterpret_cast<const TriangleBlock*>(slot->items[1])[slot->current() & reference_index];
-      const bool is_hit = query_.take_hit(scene_, *slot, block);
-      improved.add_if(is_hit & !Query::ends_at_hit, slot);
-      done.add_if(is_hit & Query::ends_at_hit, slot);
-      going_on.add_if(!(is_hit & Query::ends_at_hit), slot);
+      const auto* blocks = reinterpret_cast<const TriangleBlock*>(slot->items[1]);
+      const bool is_hit = query_.take_hit(scene_, *slot, blocks[slot->current() & reference_index]);
+      hit.add_if(is_hit, slot);
+      if constexpr (Query::ends_at_hit) missed.add_if(!is_hit, slot);
     }
-    for (Slot* slot : improved) forget_farther(*slot);
-    for (Slot* slot : going_on) pop(*slot);
-    for (Slot* slot : done) finish(*slot);
+    if constexpr (Query::ends_at_hit) {
+      for (Slot* slot : missed) pop(*slot);
+      for (Slot* slot : hit) finish(*slot);
+    } else {
+      for (Slot* slot : hit) forget_farther(*slot);
+      for (Slot* slot : visited) pop(*slot);
+    }
   }
 
   static void forget_farther(Slot& slot) {
@@ -295,11 +294,16 @@ struct NearestQuery {
   static bool take_hit(const KernelScene& scene, Slot& slot, const TriangleBlock& block) {
     return take_nearest_hit(scene, slot, block);
   }
+  // Number by number: they were written in other pieces a moment ago, and larger loads would wait for that.
   void finish(const KernelScene& scene, const Slot& slot) const {
-    KernelHit hit = slot.hit;
-    if (hit.instance == ~0u) hit.t = __builtin_inff();
-    find_owner(scene, hit);
-    __builtin_memcpy(hits + sizeof(KernelHit) * slot.index, &hit, sizeof(KernelHit));
+    const TriangleOwner owner = owner_of(scene, slot.hit.instance, slot.hit.primitive);
+    const float t = slot.hit.instance == ~0u ? __builtin_inff() : slot.hit.t, u = slot.hit.u, v = slot.hit.v;
+    char* const hit = hits + sizeof(KernelHit) * slot.index;
+    __builtin_memcpy(hit + offsetof(KernelHit, t), &t, 4);
+    __builtin_memcpy(hit + offsetof(KernelHit, instance), &owner.instance, 4);
+    __builtin_memcpy(hit + offsetof(KernelHit, primitive), &owner.primitive, 4);
+    __builtin_memcpy(hit + offsetof(KernelHit, u), &u, 4);
+    __builtin_memcpy(hit + offsetof(KernelHit, v), &v, 4);
   }
 };
 
