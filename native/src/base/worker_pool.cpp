@@ -2,12 +2,18 @@
 // Workers sleep between turns and draw indices from a shared counter.
 #include "base/worker_pool.h"
 
+#include <system_error>
+
 #include "base/parallel_for.h"
 
 namespace basicrt {
 
 WorkerPool::WorkerPool(int threads) {
-  for (int i = 1; i < resolve_thread_count(threads); ++i) threads_.emplace_back([this] { wait_for_turns(); });
+  try {
+    for (int i = 1; i < resolve_thread_count(threads); ++i) threads_.emplace_back([this] { wait_for_turns(); });
+  } catch (const std::system_error&) {
+    // The system gives no more: those that are there, at least the caller's, do all the work.
+  }
 }
 
 WorkerPool::~WorkerPool() {

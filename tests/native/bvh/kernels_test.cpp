@@ -193,6 +193,52 @@ TEST_P(EveryKernel, gives_each_ray_the_same_answer_in_any_company) {
   }
 }
 
+// Neighbours that point the same way walk together; what they meet must not depend on it, whether they meet edges, instances or nothing.
+TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone) {
+  test::Random rng(5);
+  std::vector<Shape> shapes;
+  std::vector<TracedInstance> instances;
+  for (const auto& [name, shape] : test::shapes_of_every_kind(rng)) {
+    const auto index = static_cast<std::uint32_t>(shapes.size());
+    instances.push_back(test::place(index, index % 2 ? TransformD{} : test::random_transform(rng)));
+    instances.push_back(test::place(index, test::random_transform(rng)));
+    shapes.push_back(shape);
+  }
+  instances[3].visibility = ray_shadow;
+  const Tracer all_kinds = make_tracer(shapes, instances);
+  const Tracer only_grid = make_tracer({test::flat_grid(16)}, {test::place(0, {})});
+  for (const Tracer* tracer : {&all_kinds, &only_grid}) {
+    int hit_count = 0;
+    for (int picture = 0; picture < 12; ++picture) {
+      const Vec3f origin = test::random_point(rng, 3), target = test::random_point(rng, 0.3f);
+      const Vec3f right = test::random_point(rng) * 0.01f, up = test::random_point(rng) * 0.01f;
+      std::vector<Ray> rays;
+      for (int i = 0; i < 1000; ++i) {
+        const auto x = static_cast<float>(i % 32 - 16), y = static_cast<float>(i / 32 - 16);
+        Ray ray{.origin = origin, .direction = target + right * x + up * y - origin};
+        if (picture % 3 == 1) std::swap(ray.origin, ray.direction);  // from many points
+        if (picture % 3 == 1) ray.direction = target - ray.origin;   // to one
+        if (picture % 3 == 2)
+          ray.direction = Vec3f{std::round(x) / 16, y / 16, 0} - origin;  // through corners of the grid
+        if (picture % 4 == 3) ray.t_max = 1 + test::uniform(rng, 0, 0.1f);
+        rays.push_back(ray);
+      }
+      std::vector<Hit> together(rays.size());
+      std::vector<std::uint8_t> occluded(rays.size());
+      tracer->intersect(rays, together);
+      tracer->occluded(rays, occluded);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        Hit alone;
+        tracer->intersect(std::span(&rays[i], 1), std::span(&alone, 1));
+        ASSERT_TRUE(test::is_identical(alone, together[i])) << "picture " << picture << ", ray " << i;
+        ASSERT_EQ(occluded[i], alone.is_hit()) << "picture " << picture << ", ray " << i;
+        hit_count += alone.is_hit();
+      }
+    }
+    EXPECT_GT(hit_count, 1000);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryKernel, testing::Values("avx512", "avx2", "sse42", "scalar"),
                          [](const auto& test) { return std::string(test.param); });
 

@@ -1,17 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Eight floats at a time with AVX2.
 
+struct Mask8 {
+  __m256 lanes;
+
+  friend Mask8 operator&(Mask8 a, Mask8 b) { return {_mm256_and_ps(a.lanes, b.lanes)}; }
+  friend Mask8 operator|(Mask8 a, Mask8 b) { return {_mm256_or_ps(a.lanes, b.lanes)}; }
+  unsigned bits() const { return static_cast<unsigned>(_mm256_movemask_ps(lanes)); }
+};
+
 struct Float8 {
   __m256 lanes;
 
   static Float8 load(const float* aligned) { return {_mm256_load_ps(aligned)}; }
   static Float8 all(float x) { return {_mm256_set1_ps(x)}; }
+  static Mask8 mask(unsigned bits) {
+    const __m256i lane_bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    return {_mm256_castsi256_ps(
+        _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), lane_bits), lane_bits))};
+  }
+  void store(float* aligned) const { _mm256_store_ps(aligned, lanes); }
+  friend Float8 operator+(Float8 a, Float8 b) { return {_mm256_add_ps(a.lanes, b.lanes)}; }
   friend Float8 operator-(Float8 a, Float8 b) { return {_mm256_sub_ps(a.lanes, b.lanes)}; }
   friend Float8 operator*(Float8 a, Float8 b) { return {_mm256_mul_ps(a.lanes, b.lanes)}; }
+  friend Float8 operator/(Float8 a, Float8 b) { return {_mm256_div_ps(a.lanes, b.lanes)}; }
   // Where one is NaN, b.
   friend Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(a.lanes, b.lanes)}; }
   friend Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(a.lanes, b.lanes)}; }
+  friend Float8 abs(Float8 a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.lanes)}; }
+  friend Float8 copysign(Float8 magnitude, Float8 sign) {
+    return {_mm256_or_ps(_mm256_andnot_ps(_mm256_set1_ps(-0.0f), magnitude.lanes),
+                         _mm256_and_ps(_mm256_set1_ps(-0.0f), sign.lanes))};
+  }
+  friend Float8 select(Mask8 mask, Float8 where_set, Float8 elsewhere) {
+    return {_mm256_blendv_ps(elsewhere.lanes, where_set.lanes, mask.lanes)};
+  }
+  friend Mask8 operator<=(Float8 a, Float8 b) { return {_mm256_cmp_ps(a.lanes, b.lanes, _CMP_LE_OQ)}; }
+  friend Mask8 operator<(Float8 a, Float8 b) { return {_mm256_cmp_ps(a.lanes, b.lanes, _CMP_LT_OQ)}; }
+  friend Mask8 operator==(Float8 a, Float8 b) { return {_mm256_cmp_ps(a.lanes, b.lanes, _CMP_EQ_OQ)}; }
+  unsigned sign_bits() const { return static_cast<unsigned>(_mm256_movemask_ps(lanes)); }
 };
+
+// What packets have in each lane a ray of.
+using Pack = Float8;
 
 // Row m: the numbers of the set bits of m in front, which moves the lanes of a mask together.
 struct CompressTable {

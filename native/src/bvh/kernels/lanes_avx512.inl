@@ -13,6 +13,45 @@ struct Float8 {
   friend Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(a.lanes, b.lanes)}; }
 };
 
+struct Mask16 {
+  __mmask16 lanes;
+
+  friend Mask16 operator&(Mask16 a, Mask16 b) { return {static_cast<__mmask16>(a.lanes & b.lanes)}; }
+  friend Mask16 operator|(Mask16 a, Mask16 b) { return {static_cast<__mmask16>(a.lanes | b.lanes)}; }
+  unsigned bits() const { return lanes; }
+};
+
+struct Float16 {
+  __m512 lanes;
+
+  static Float16 load(const float* aligned) { return {_mm512_load_ps(aligned)}; }
+  static Float16 all(float x) { return {_mm512_set1_ps(x)}; }
+  static Mask16 mask(unsigned bits) { return {static_cast<__mmask16>(bits)}; }
+  void store(float* aligned) const { _mm512_store_ps(aligned, lanes); }
+  friend Float16 operator+(Float16 a, Float16 b) { return {_mm512_add_ps(a.lanes, b.lanes)}; }
+  friend Float16 operator-(Float16 a, Float16 b) { return {_mm512_sub_ps(a.lanes, b.lanes)}; }
+  friend Float16 operator*(Float16 a, Float16 b) { return {_mm512_mul_ps(a.lanes, b.lanes)}; }
+  friend Float16 operator/(Float16 a, Float16 b) { return {_mm512_div_ps(a.lanes, b.lanes)}; }
+  // Where one is NaN, b.
+  friend Float16 min(Float16 a, Float16 b) { return {_mm512_min_ps(a.lanes, b.lanes)}; }
+  friend Float16 max(Float16 a, Float16 b) { return {_mm512_max_ps(a.lanes, b.lanes)}; }
+  friend Float16 abs(Float16 a) { return {_mm512_abs_ps(a.lanes)}; }
+  friend Float16 copysign(Float16 magnitude, Float16 sign) {
+    return {_mm512_or_ps(_mm512_andnot_ps(_mm512_set1_ps(-0.0f), magnitude.lanes),
+                         _mm512_and_ps(_mm512_set1_ps(-0.0f), sign.lanes))};
+  }
+  friend Float16 select(Mask16 mask, Float16 where_set, Float16 elsewhere) {
+    return {_mm512_mask_blend_ps(mask.lanes, elsewhere.lanes, where_set.lanes)};
+  }
+  friend Mask16 operator<=(Float16 a, Float16 b) { return {_mm512_cmp_ps_mask(a.lanes, b.lanes, _CMP_LE_OQ)}; }
+  friend Mask16 operator<(Float16 a, Float16 b) { return {_mm512_cmp_ps_mask(a.lanes, b.lanes, _CMP_LT_OQ)}; }
+  friend Mask16 operator==(Float16 a, Float16 b) { return {_mm512_cmp_ps_mask(a.lanes, b.lanes, _CMP_EQ_OQ)}; }
+  unsigned sign_bits() const { return _mm512_movepi32_mask(_mm512_castps_si512(lanes)); }
+};
+
+// What packets have in each lane a ray of.
+using Pack = Float16;
+
 inline std::uint32_t push_compressed(__mmask8 mask, __m256i references, __m256 entries, TreeReference* to_references,
                                      float* to_entries) {
   // Compressed in registers: storing compressed memory is slow on some machines.

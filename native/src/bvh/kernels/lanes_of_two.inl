@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Eight floats as twice four, and what is done with a node's children one by one.
 
+// What packets have in each lane a ray of.
+using Pack = Float4;
+
 struct Float8 {
   Float4 halves[2];
 

@@ -36,7 +36,11 @@ struct Float4 {
   static Float4 load(const float* from) {
     return of_each([&](int i) { return from[i]; });
   }
+  static Float4 load_anywhere(const float* from) { return load(from); }
   static Float4 all(float x) { return {{x, x, x, x}}; }
+  static Mask4 mask(unsigned bits) {
+    return mask_of_each([&](int i) { return (bits >> i & 1) != 0; });
+  }
   void store(float* to) const {
     for (int i = 0; i < 4; ++i) to[i] = lanes[i];
   }

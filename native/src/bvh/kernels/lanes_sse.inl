@@ -13,7 +13,13 @@ struct Float4 {
   __m128 lanes;
 
   static Float4 load(const float* aligned) { return {_mm_load_ps(aligned)}; }
+  static Float4 load_anywhere(const float* from) { return {_mm_loadu_ps(from)}; }
   static Float4 all(float x) { return {_mm_set1_ps(x)}; }
+  static Mask4 mask(unsigned bits) {
+    const __m128i lane_bits = _mm_setr_epi32(1, 2, 4, 8);
+    return {
+        _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32(static_cast<int>(bits)), lane_bits), lane_bits))};
+  }
   void store(float* aligned) const { _mm_store_ps(aligned, lanes); }
   void store3(float* to) const {
     _mm_storel_pi(reinterpret_cast<__m64*>(to), lanes);

@@ -46,7 +46,7 @@ struct alignas(64) Slot {
 };
 static_assert(__builtin_offsetof(Slot, ray) == 128 && __builtin_offsetof(Stack, entries) == 4 * stack_capacity);
 
-struct Scratch {
+struct StreamScratch {
   Slot slots[slot_count];
   Stack stacks[slot_count];
 };
@@ -141,12 +141,10 @@ inline bool take_nearest_hit(const KernelScene& scene, Slot& slot, const Triangl
 template <class Query>
 class Stream {
  public:
-  Stream(const KernelScene& scene, const void* rays, std::size_t count, Query query, void* scratch)
-      : scene_(scene),
-        rays_(static_cast<const char*>(rays)),
-        count_(count),
-        query_(query),
-        scratch_(*static_cast<Scratch*>(scratch)) {}
+  // Of the rays with these numbers.
+  Stream(const KernelScene& scene, const char* rays, const std::uint32_t* numbers, std::size_t count, Query query,
+         StreamScratch& scratch)
+      : scene_(scene), rays_(rays), numbers_(numbers), count_(count), query_(query), scratch_(scratch) {}
 
   void run() {
     for (std::uint32_t i = 0; i < slot_count; ++i) {
@@ -164,7 +162,7 @@ class Stream {
   // Gives the slot the next ray that can hit anything, or leaves it idle.
   void start_next(Slot& slot) {
     while (next_ < count_) {
-      slot.index = next_++;
+      slot.index = numbers_[next_++];
       __builtin_memcpy(&slot.ray, rays_ + sizeof(KernelRay) * slot.index, sizeof(KernelRay));
       slot.hit = {.t = slot.ray.t_max > __FLT_MAX__ ? __FLT_MAX__ : slot.ray.t_max,
                   .instance = ~0u,
@@ -281,9 +279,10 @@ class Stream {
 
   const KernelScene& scene_;
   const char* rays_;
+  const std::uint32_t* numbers_;
   std::size_t count_, next_ = 0;
   Query query_;
-  Scratch& scratch_;
+  StreamScratch& scratch_;
   Queues queues_;
 };
 
@@ -294,11 +293,12 @@ struct NearestQuery {
   static bool take_hit(const KernelScene& scene, Slot& slot, const TriangleBlock& block) {
     return take_nearest_hit(scene, slot, block);
   }
+  void finish(const KernelScene& scene, const Slot& slot) const { write(scene, slot.index, slot.hit); }
   // Number by number: they were written in other pieces a moment ago, and larger loads would wait for that.
-  void finish(const KernelScene& scene, const Slot& slot) const {
-    const TriangleOwner owner = owner_of(scene, slot.hit.instance, slot.hit.primitive);
-    const float t = slot.hit.instance == ~0u ? __builtin_inff() : slot.hit.t, u = slot.hit.u, v = slot.hit.v;
-    char* const hit = hits + sizeof(KernelHit) * slot.index;
+  void write(const KernelScene& scene, std::size_t index, const KernelHit& found) const {
+    const TriangleOwner owner = owner_of(scene, found.instance, found.primitive);
+    const float t = found.instance == ~0u ? __builtin_inff() : found.t, u = found.u, v = found.v;
+    char* const hit = hits + sizeof(KernelHit) * index;
     __builtin_memcpy(hit + offsetof(KernelHit, t), &t, 4);
     __builtin_memcpy(hit + offsetof(KernelHit, instance), &owner.instance, 4);
     __builtin_memcpy(hit + offsetof(KernelHit, primitive), &owner.primitive, 4);
@@ -317,13 +317,8 @@ struct AnyQuery {
     slot.hit.instance = is_hit ? slot.instance : slot.hit.instance;
     return is_hit;
   }
-  void finish(const KernelScene&, const Slot& slot) const { results[slot.index] = slot.hit.instance != ~0u; }
+  void finish(const KernelScene& scene, const Slot& slot) const { write(scene, slot.index, slot.hit); }
+  void write(const KernelScene&, std::size_t index, const KernelHit& found) const {
+    results[index] = found.instance != ~0u;
+  }
 };
-
-inline void intersect(const KernelScene& scene, const void* rays, void* hits, std::size_t count, void* scratch) {
-  Stream(scene, rays, count, NearestQuery{static_cast<char*>(hits)}, scratch).run();
-}
-inline void occluded(const KernelScene& scene, const void* rays, std::uint8_t* results, std::size_t count,
-                     void* scratch) {
-  Stream(scene, rays, count, AnyQuery{results}, scratch).run();
-}

@@ -107,13 +107,15 @@ inline TriangleHits intersect_block(const TriangleBlock& block, const Space& spa
   const EdgeWeights weights = edge_weights(corners);
   InsideHits inside = inside_hits(corners, weights, space);
   const Float4 least = min(min(abs(weights.w[0]), abs(weights.w[1])), abs(weights.w[2]));
-  if (__builtin_expect((least <= Float4::all(smallest_weight)).bits() != 0, 0)) {
+  const Mask4 is_unclear = least <= Float4::all(smallest_weight);
+  if (__builtin_expect(is_unclear.bits() != 0, 0)) {
     LanesInMemory solved;
     find_inside_hits_in_double(block, space, solved);
-    inside.t = Float4::load(solved.t);
-    inside.u = Float4::load(solved.u);
-    inside.v = Float4::load(solved.v);
-    inside.is_inside = Float4::load(solved.is_hit) == Float4::all(1);
+    inside.t = select(is_unclear, Float4::load(solved.t), inside.t);
+    inside.u = select(is_unclear, Float4::load(solved.u), inside.u);
+    inside.v = select(is_unclear, Float4::load(solved.v), inside.v);
+    inside.is_inside =
+        without(inside.is_inside, is_unclear) | (is_unclear & (Float4::load(solved.is_hit) == Float4::all(1)));
   }
 
   // A NaN is no hit.

@@ -5,3 +5,5 @@
 #include "bvh/kernels/box.inl"
 #include "bvh/kernels/triangle.inl"
 #include "bvh/kernels/stream.inl"
+#include "bvh/kernels/packet.inl"
+#include "bvh/kernels/trace.inl"

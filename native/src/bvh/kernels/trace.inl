@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a kernel does with the rays of one call: those that go together walk in packets, the others in the stream.
+
+struct Scratch {
+  StreamScratch stream;
+  PacketScratch packet;
+};
+
+// Whether neighbours point much the same way. Where they start shows while they walk.
+inline bool go_together(const char* rays) {
+  const auto direction = [&](unsigned ray) {
+    return Float4::load_anywhere(
+        reinterpret_cast<const float*>(rays + sizeof(KernelRay) * ray + offsetof(KernelRay, direction)));
+  };
+  Float4 least = direction(0), most = least;
+  for (unsigned ray = 1; ray < packet_size; ++ray) {
+    least = min(direction(ray), least);
+    most = max(direction(ray), most);
+  }
+  const unsigned is_same_side = ~(least.sign_bits() ^ most.sign_bits());
+  alignas(16) float size[4], spread[4];
+  max(abs(least), abs(most)).store(size);
+  (most - least).store(spread);
+  const float largest =
+      size[0] > size[1] ? (size[0] > size[2] ? size[0] : size[2]) : (size[1] > size[2] ? size[1] : size[2]);
+  return (is_same_side & 7) == 7 && spread[0] + spread[1] + spread[2] < 0.25f * largest;
+}
+
+template <class Query>
+void trace(const KernelScene& scene, const char* rays, std::size_t count, Query query, Scratch& scratch) {
+  constexpr std::size_t chunk_size = 4096;
+  std::uint32_t alone[chunk_size];
+  for (std::size_t first = 0; first < count; first += chunk_size) {
+    const std::size_t end = count - first < chunk_size ? count : first + chunk_size;
+    std::size_t alone_count = 0;
+    for (std::size_t i = first; i < end; i += packet_size) {
+      const std::size_t size = end - i < packet_size ? end - i : packet_size;
+      const char* packet_rays = rays + sizeof(KernelRay) * i;
+      if (size == packet_size && scene.root != no_reference && go_together(packet_rays)) {
+        PacketWalk walk(scene, scratch.packet, packet_rays, Query::ends_at_hit);
+        if (walk.run()) {
+          walk.store();
+          for (unsigned lane = 0; lane < packet_size; ++lane) query.write(scene, i + lane, walk.hit(lane));
+          continue;
+        }
+      }
+      for (std::size_t j = 0; j < size; ++j) alone[alone_count++] = static_cast<std::uint32_t>(i + j);
+    }
+    Stream(scene, rays, alone, alone_count, query, scratch.stream).run();
+  }
+}
+
+inline void intersect(const KernelScene& scene, const void* rays, void* hits, std::size_t count, void* scratch) {
+  trace(scene, static_cast<const char*>(rays), count, NearestQuery{static_cast<char*>(hits)},
+        *static_cast<Scratch*>(scratch));
+}
+inline void occluded(const KernelScene& scene, const void* rays, std::uint8_t* results, std::size_t count,
+                     void* scratch) {
+  trace(scene, static_cast<const char*>(rays), count, AnyQuery{results}, *static_cast<Scratch*>(scratch));
+}
