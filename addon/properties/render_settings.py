@@ -21,6 +21,11 @@ SAMPLERS = (
 )
 BVH_BUILDERS = (
     ("BINNED_SAH", "Binned SAH", "Trees that are fast to trace"),
+    (
+        "SPLIT_SAH",
+        "Split SAH",
+        "Slower to build; faster to trace where long slanted triangles lie among small ones",
+    ),
     ("MEDIAN", "Median Split", "The reference: simple, slower to trace"),
 )
 

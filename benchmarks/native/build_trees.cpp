@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How fast trees are built, and how large they are, beside Embree where it is installed.
 //
-// build_trees [--size small|full] [--runs N] [--threads N] [--scene NAME]
+// build_trees [--size small|full] [--runs N] [--threads N] [--scene NAME] [--builder split_sah]
 // Medians of N interleaved runs. One thread is timed by the processor's clock, several by the wall's.
 #include <algorithm>
 #include <atomic>
@@ -94,10 +94,10 @@ Shape shape_of(const MeshTree& tree, std::size_t triangles) {
   return {ratio(children, tree.tree.nodes.size()), ratio(triangles, tree.blocks.size())};
 }
 
-void run(const char* name, Mesh mesh, int threads, int runs) {
+void run(const char* name, Mesh mesh, BvhBuilder builder, int threads, int runs) {
   mesh.positions.emplace_back();  // never used
   const auto triangles = static_cast<double>(mesh.triangles.size());
-  const BvhConfig config{.threads = threads};
+  const BvhConfig config{.builder = builder, .threads = threads};
   std::vector<double> rates, embree_rates, ratios;
   Shape shape;
   double bytes = 0, embree_bytes = 0;
@@ -132,6 +132,7 @@ void run(const char* name, Mesh mesh, int threads, int runs) {
 int main(int argc, char** argv) {
   bool is_small = false;
   int runs = 7, threads = 1;
+  BvhBuilder builder = BvhBuilder::binned_sah;
   std::string_view only;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string_view option = argv[i];
@@ -139,6 +140,7 @@ int main(int argc, char** argv) {
     if (option == "--runs") runs = std::max(1, std::atoi(argv[i + 1]));
     if (option == "--threads") threads = std::max(1, std::atoi(argv[i + 1]));
     if (option == "--scene") only = argv[i + 1];
+    if (option == "--builder" && argv[i + 1] == std::string_view("split_sah")) builder = BvhBuilder::split_sah;
   }
 #if defined(BASICRT_WITH_EMBREE)
   std::printf("%d threads, medians of %d runs, beside Embree %s\n\n", threads, runs, RTC_VERSION_STRING);
@@ -153,11 +155,13 @@ int main(int argc, char** argv) {
       "| blocks |\n|---|---|---|---|---|---|---|---|\n");
 #endif
   const auto scene = [&](const char* name, auto&& make, int detail) {
-    if (only.empty() || only == name) run(name, make(detail), threads, runs);
+    if (only.empty() || only == name) run(name, make(detail), builder, threads, runs);
   };
   scene("cornell", benchmark::make_cornell, is_small ? 32 : 380);
   scene("terrain", benchmark::make_terrain, is_small ? 64 : 707);
-  scene("soup", benchmark::make_soup, is_small ? 10000 : 1000000);
+  scene("soup", [](int count) { return benchmark::make_soup(count); }, is_small ? 10000 : 1000000);
+  scene("overlap", [](int count) { return benchmark::make_soup(count, 0.2f); }, is_small ? 2000 : 200000);
+  scene("hall", benchmark::make_hall, is_small ? 30 : 220);
   scene("hair", benchmark::make_hair, is_small ? 10000 : 1000000);
   return 0;
 }

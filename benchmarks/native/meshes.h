@@ -56,7 +56,7 @@ inline Mesh make_terrain(int detail) {
   return mesh;
 }
 
-inline Mesh make_soup(int count) {
+inline Mesh make_soup(int count, float size = 0.02f) {
   Mesh mesh;
   std::mt19937 rng(7);
   std::uniform_real_distribution<float> uniform(-1, 1);
@@ -64,8 +64,39 @@ inline Mesh make_soup(int count) {
   for (int i = 0; i < count; ++i) {
     const Vec3f center = vector();
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (int corner = 0; corner < 3; ++corner) mesh.positions.push_back(center + vector() * 0.02f);
+    for (int corner = 0; corner < 3; ++corner) mesh.positions.push_back(center + vector() * size);
     mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+// Turned columns, walls and beams of few large triangles, with finely tessellated balls among them.
+inline Mesh make_hall(int detail) {
+  Mesh mesh;
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  const auto add_beam = [&](Vec3f from, Vec3f to, float width, int sides) {
+    const Vec3f along = normalize(to - from), across = normalize(cross(along, Vec3f{0.3f, 0.5f, 0.8f}));
+    const Vec3f third = cross(along, across);
+    add_grid(mesh, sides, 1, [&](float u, float v) {
+      return from + (to - from) * v + (across * std::cos(2 * pi * u) + third * std::sin(2 * pi * u)) * width;
+    });
+  };
+  for (int i = 0; i < detail * detail / 20; ++i) {
+    const Vec3f from{uniform(rng), uniform(rng), uniform(rng)};
+    const bool is_column = i % 3 == 0;
+    const Vec3f turn{0.3f * uniform(rng), 1, 0.3f * uniform(rng)};
+    const Vec3f to = is_column ? from + turn * 0.8f : from + Vec3f{uniform(rng), 0.2f * uniform(rng), uniform(rng)};
+    add_beam(from, to, 0.004f + 0.01f * std::abs(uniform(rng)), 8);
+  }
+  for (int i = 0; i < 12; ++i) {
+    const Vec3f center{uniform(rng), uniform(rng), uniform(rng)};
+    add_grid(mesh, detail, detail / 2, [&](float u, float v) {
+      const float longitude = 2 * pi * u, latitude = pi * v;
+      return center + Vec3f{std::sin(latitude) * std::cos(longitude), std::cos(latitude),
+                            std::sin(latitude) * std::sin(longitude)} *
+                          0.1f;
+    });
   }
   return mesh;
 }

@@ -31,7 +31,7 @@ def room(integrator: str) -> basicrt.Scene:
     return scene
 
 
-@pytest.mark.parametrize("builder", ["median", "binned_sah"])
+@pytest.mark.parametrize("builder", ["median", "binned_sah", "split_sah"])
 def test_both_integrators_make_the_same_picture(builder: str) -> None:
     pictures = []
     for integrator in ("path", "intersection_test"):
@@ -52,7 +52,7 @@ def test_both_integrators_make_the_same_picture(builder: str) -> None:
 @pytest.mark.parametrize("integrator", ["path", "intersection_test"])
 def test_both_trees_make_the_same_picture(integrator: str) -> None:
     pictures = []
-    for builder in ("median", "binned_sah"):
+    for builder in ("median", "binned_sah", "split_sah"):
         scene = room(integrator)
         scene.settings.bvh_builder = builder
         pictures.append(basicrt.render(scene)["Combined"])

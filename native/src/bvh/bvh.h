@@ -15,6 +15,7 @@ namespace basicrt {
 enum class BvhBuilder : std::uint8_t {
   median,      // the reference: binary, axis of largest extent, median split; then collapsed
   binned_sah,  // surface area heuristic over bins, straight into nodes of eight
+  split_sah,   // the same with more bins and with long triangles cut: slower, for final renders of difficult scenes
 };
 
 struct BvhConfig {

@@ -8,13 +8,17 @@
 
 #include "base/assert.h"
 #include "base/worker_pool.h"
+#include "bvh/cut_references.h"
 #include "bvh/node_order.h"
+#include "bvh/split_bins.h"
 #include "bvh/tree_layout.h"
 
 namespace basicrt {
 namespace {
 
 constexpr std::size_t block_size = 4;
+constexpr int coarse_bins = 16, fine_bins = SplitBins::most_bins;
+constexpr double cut_budget = 0.3;        // cuts for each triangle, on average
 constexpr std::size_t chunk_size = 8192;  // triangles or blocks that a thread does at a time
 
 // Threads are not worth starting for less.
@@ -46,10 +50,15 @@ TreeLayout build_layout(const Mesh& mesh, const BvhConfig& config, WorkerPool& p
     for_each(pool, config.progress, count, [&](std::size_t i) { boxes[i] = bounds_of(mesh, i); });
     return collapse_to_layout(build_median_bvh(boxes, config), boxes, block_size, config.progress);
   }
+  if (config.builder == BvhBuilder::split_sah) {
+    const auto most_cuts = static_cast<std::size_t>(cut_budget * static_cast<double>(count));
+    return build_sah_layout(cut_references(mesh, most_cuts, pool, config.progress), block_size, fine_bins, pool,
+                            config.progress);
+  }
   HugeVector<Reference> references(count);
   for_each(pool, config.progress, count,
            [&](std::size_t i) { references[i] = Reference(bounds_of(mesh, i), static_cast<std::uint32_t>(i)); });
-  return build_sah_layout(std::move(references), config.leaf_size, pool, config.progress);
+  return build_sah_layout(std::move(references), config.leaf_size, coarse_bins, pool, config.progress);
 }
 
 void set_corners(TriangleBlock& block, std::size_t lane, const Mesh& mesh) {
@@ -141,7 +150,7 @@ NodeTree build_instance_tree(std::span<const Bounds3f> boxes, const BvhConfig& c
   } else {
     HugeVector<Reference> references;
     for (std::uint32_t i = 0; i < filled.size(); ++i) references.emplace_back(filled[i], i);
-    layout = build_sah_layout(std::move(references), 1, pool, config.progress);
+    layout = build_sah_layout(std::move(references), 1, fine_bins, pool, config.progress);
   }
   const auto as_instance = [&](TreeReference reference) {
     if (reference == no_reference || !(reference & triangles_mark)) return reference;

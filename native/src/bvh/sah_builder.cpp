@@ -161,6 +161,9 @@ class NodeBuilder {
       for (; place > 0 && leaf[place - 1] > primitive; --place) leaf[place] = leaf[place - 1];
       leaf[place] = primitive;
     }
+    // Of several references to one primitive the first stays; the others repeat the last primitive.
+    std::uint32_t* const end = std::unique(leaf, leaf + count);
+    std::fill(end, leaf + count, end[-1]);
   }
 
   Workspace& workspace_;
@@ -207,10 +210,11 @@ TreeLayout join(Subtree top, const std::vector<Branch>& branches, std::vector<Su
 
 }  // namespace
 
-TreeLayout build_sah_layout(HugeVector<Reference> references, int leaf_size, WorkerPool& pool, WorkProgress* progress) {
+TreeLayout build_sah_layout(HugeVector<Reference> references, int leaf_size, int most_bins, WorkerPool& pool,
+                            WorkProgress* progress) {
   BASICRT_ASSERT(leaf_size == 1 || leaf_size == 2 || leaf_size == 4);
   if (references.empty()) return {};
-  Workspace workspace{.leaf_size = static_cast<std::uint32_t>(leaf_size), .progress = progress};
+  Workspace workspace{.leaf_size = static_cast<std::uint32_t>(leaf_size), .most_bins = most_bins, .progress = progress};
   workspace.primitives.resize(references.size());
   workspace.buffers[1].resize(references.size());
   workspace.buffers[0] = std::move(references);

@@ -16,10 +16,9 @@ constexpr std::uint32_t most_chunks = 128;  // each has bins of its own
 // What a single thread moves in one go: chunks cost it more, but they can be cancelled.
 constexpr std::uint32_t longest_move = 1u << 20;
 
-int bins_for(std::uint32_t count) { return static_cast<int>(std::min(16u, 8 + count / 16)); }
-
-Binning binning_of(const Part& part) {
-  return {part.extents.lowest_center, part.extents.highest_center, bins_for(part.count())};
+Binning binning_of(const Part& part, int most_bins) {
+  const auto bins = static_cast<int>(8 + part.count() / 16);
+  return {part.extents.lowest_center, part.extents.highest_center, std::min(most_bins, bins)};
 }
 
 // References cut into pieces for threads, in the same way for any number of threads.
@@ -99,7 +98,8 @@ Part Splitter::root() {
 std::pair<Part, Part> Splitter::split(const Part& part) {
   if (!part.split.is_found()) return halve(part);
   std::array<Part, 2> sides = sides_of(part);
-  const std::array<Binning, 2> binnings{binning_of(sides[0]), binning_of(sides[1])};
+  const std::array<Binning, 2> binnings{binning_of(sides[0], workspace_.most_bins),
+                                        binning_of(sides[1], workspace_.most_bins)};
   for (int side = 0; side < 2; ++side) bins_[side].clear(binnings[side].bins());
   if (part.count() > (pool_.thread_count() > 1 ? 2 * chunk_size : longest_move)) {
     move_in_chunks(part, sides, binnings);
@@ -144,7 +144,7 @@ void Splitter::find_split(Part& part) {
   part.split = Split{};
   if (part.count() <= workspace_.leaf_size) return;
   const Chunks chunks(workspace_.references(part));
-  const Binning binning = binning_of(part);
+  const Binning binning = binning_of(part, workspace_.most_bins);
   std::vector<SplitBins> bins(chunks.count());
   pool_.for_each(chunks.count(), [&](std::size_t i) {
     workspace_.report_work(0);

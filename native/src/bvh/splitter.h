@@ -44,6 +44,7 @@ struct Part {
 struct Workspace {
   std::array<HugeVector<Reference>, 2> buffers;
   std::uint32_t leaf_size;
+  int most_bins = 16;
   float scale = 1;  // makes extents about 1
   WorkProgress* progress = nullptr;
   HugeVector<std::uint32_t> primitives;  // of leaves, in the order of the parts

@@ -2,7 +2,9 @@
 // Walks the tree, which may be wrong in any way, and stops at the first fault.
 #include "bvh/tree_fault.h"
 
+#include <algorithm>
 #include <functional>
+#include <random>
 #include <vector>
 
 namespace basicrt {
@@ -106,7 +108,9 @@ class Uses {
   std::vector<unsigned> uses_;
 };
 
-std::string check_block(const TriangleBlock& block, const Mesh& mesh, const Bounds3f& box, Uses& uses) {
+// Calls visit(triangle) for each lane in use. Returns what is wrong.
+template <class Visit>
+std::string check_block(const TriangleBlock& block, const Mesh& mesh, const Visit& visit) {
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const std::uint32_t triangle = block.primitives[lane];
     const bool is_missing = lane > 0 && triangle == block.primitives[lane - 1];
@@ -114,24 +118,27 @@ std::string check_block(const TriangleBlock& block, const Mesh& mesh, const Boun
     const std::string name = "primitive " + std::to_string(triangle) + ": ";
     if (was_missing && !is_missing) return name + "comes after a missing one";
     if (lane > 0 && triangle < block.primitives[lane - 1]) return name + "is not in ascending order";
-    if (!is_missing)
-      if (std::string fault = uses.add(triangle); !fault.empty()) return fault;
-    Bounds3f bounds;
+    if (triangle >= mesh.triangles.size()) return name + "does not exist";
     for (int corner = 0; corner < 3; ++corner) {
       const Vec3f position{block.corners[corner][0][lane], block.corners[corner][1][lane],
                            block.corners[corner][2][lane]};
       if (!is_same_position(position, mesh.position(triangle, corner))) return name + "is not where the mesh has it";
-      bounds.extend(position);
     }
-    if (!box.contains(bounds)) return name + "is not inside its leaf";
+    if (!is_missing)
+      if (std::string fault = visit(triangle); !fault.empty()) return fault;
   }
   return {};
 }
 
-}  // namespace
+Bounds3f bounds_of(const Mesh& mesh, std::uint32_t triangle) {
+  Bounds3f box;
+  for (int corner = 0; corner < 3; ++corner) box.extend(mesh.position(triangle, corner));
+  return box;
+}
 
-std::string find_tree_fault(const MeshTree& tree, const Mesh& mesh) {
-  Uses uses(mesh.triangles.size());
+// Checks the nodes, and blocks with visit(triangle, box).
+template <class Visit>
+std::string check_mesh_tree(const MeshTree& tree, const Mesh& mesh, const Visit& visit) {
   std::vector<bool> is_reached(tree.blocks.size());
   const auto check_leaf = [&](TreeReference reference, const Bounds3f& box) -> std::string {
     const std::uint32_t index = reference & reference_index;
@@ -139,12 +146,57 @@ std::string find_tree_fault(const MeshTree& tree, const Mesh& mesh) {
     if ((reference & ~reference_index) != triangles_mark || index >= tree.blocks.size()) return name + "does not exist";
     if (is_reached[index]) return name + "has two parents";
     is_reached[index] = true;
-    return check_block(tree.blocks[index], mesh, box, uses);
+    return check_block(tree.blocks[index], mesh, [&](std::uint32_t triangle) { return visit(triangle, box); });
   };
   if (std::string fault = FaultFinder(tree.tree, check_leaf).find(); !fault.empty()) return fault;
   for (std::size_t i = 0; i < is_reached.size(); ++i)
     if (!is_reached[i]) return "block " + std::to_string(i) + ": has no parent";
+  return {};
+}
+
+bool is_covered(const Mesh& mesh, std::uint32_t triangle, const std::vector<Bounds3f>& boxes) {
+  std::mt19937 rng(triangle);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 50; ++i) {
+    double u = uniform(rng), v = i % 2 ? 0 : uniform(rng);  // half of them on an edge
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    const auto corner = [&](int k) { return Vec3d(mesh.position(triangle, (i + k) % 3)); };
+    const Vec3d point = corner(0) * (1 - u - v) + corner(1) * u + corner(2) * v;
+    const Vec3d error = max(abs(corner(0)), max(abs(corner(1)), abs(corner(2)))) * 1e-14;
+    const auto holds = [&](const Bounds3f& box) {
+      const Vec3d lower = Vec3d(box.lower) - error, upper = Vec3d(box.upper) + error;
+      return point.x >= lower.x && point.y >= lower.y && point.z >= lower.z && point.x <= upper.x &&
+             point.y <= upper.y && point.z <= upper.z;
+    };
+    if (std::none_of(boxes.begin(), boxes.end(), holds)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string find_tree_fault(const MeshTree& tree, const Mesh& mesh) {
+  Uses uses(mesh.triangles.size());
+  const auto visit = [&](std::uint32_t triangle, const Bounds3f& box) -> std::string {
+    if (!box.contains(bounds_of(mesh, triangle)))
+      return "primitive " + std::to_string(triangle) + ": is not inside its leaf";
+    return uses.add(triangle);
+  };
+  if (std::string fault = check_mesh_tree(tree, mesh, visit); !fault.empty()) return fault;
   return uses.find_fault([](std::size_t) { return 1u; });
+}
+
+std::string find_cut_tree_fault(const MeshTree& tree, const Mesh& mesh) {
+  std::vector<std::vector<Bounds3f>> boxes(mesh.triangles.size());
+  const auto visit = [&](std::uint32_t triangle, const Bounds3f& box) {
+    boxes[triangle].push_back(box);
+    return std::string();
+  };
+  if (std::string fault = check_mesh_tree(tree, mesh, visit); !fault.empty()) return fault;
+  for (std::uint32_t triangle = 0; triangle < boxes.size(); ++triangle)
+    if (!is_covered(mesh, triangle, boxes[triangle]))
+      return "primitive " + std::to_string(triangle) + ": is not covered by its leaves";
+  return {};
 }
 
 std::string find_tree_fault(const NodeTree& tree, std::span<const Bounds3f> boxes) {

@@ -20,7 +20,7 @@ struct TreeLayout {
   HugeVector<TreeNode> nodes;  // references to leaves are marked as triangles, with the leaf's number
   TreeReference root = no_reference;
   Bounds3f bounds;
-  // Leaf i holds primitives[leaf_begins[i]] up to before primitives[leaf_begins[i + 1]], ascending.
+  // Leaf i holds primitives[leaf_begins[i]] up to before primitives[leaf_begins[i + 1]], ascending. The last may be repeated.
   HugeVector<std::uint32_t> leaf_begins, primitives;
 
   [[nodiscard]] std::size_t leaf_count() const { return leaf_begins.empty() ? 0 : leaf_begins.size() - 1; }
@@ -29,10 +29,10 @@ struct TreeLayout {
   }
 };
 
-// By the surface area heuristic, straight into nodes of eight. Leaves hold up to `leaf_size` primitives: 1 or 4. The
-// same for any number of threads. Changes the references.
-[[nodiscard]] TreeLayout build_sah_layout(HugeVector<Reference> references, int leaf_size, WorkerPool& pool,
-                                          WorkProgress* progress);
+// By the surface area heuristic, straight into nodes of eight. Leaves hold up to `leaf_size` primitives: 1 or 4. A
+// primitive may have several references. The same for any number of threads.
+[[nodiscard]] TreeLayout build_sah_layout(HugeVector<Reference> references, int leaf_size, int most_bins,
+                                          WorkerPool& pool, WorkProgress* progress);
 
 // Collapses a binary tree, opening the child with the largest surface until there are eight.
 [[nodiscard]] TreeLayout collapse_to_layout(const Bvh& bvh, std::span<const Bounds3f> boxes, int leaf_size,

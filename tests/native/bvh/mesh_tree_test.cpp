@@ -72,6 +72,69 @@ TEST(MeshTree, both_builders_make_sound_trees_of_anything) {
     }
 }
 
+// The expected number of nodes and blocks that a random line which meets the tree's box meets.
+double expected_work(const MeshTree& tree) {
+  double work = 0;
+  for (const TreeNode& node : tree.tree.nodes)
+    for (std::size_t child = 0; child < 8; ++child) {
+      Bounds3<double> box;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lower[axis] = static_cast<double>(node.bounds[axis][0][child]);
+        box.upper[axis] = static_cast<double>(node.bounds[axis][1][child]);
+      }
+      work += box.half_area();
+    }
+  return work / static_cast<double>(tree.tree.bounds.half_area());
+}
+
+// Long triangles in all directions among many small ones.
+Mesh beams() {
+  test::Random rng(20);
+  Mesh mesh = test::soup(rng, 3000, 0.02f);
+  for (std::uint32_t i = 0; i < 40; ++i) mesh.positions[3 * i] = test::random_point(rng, 2);
+  return mesh;
+}
+
+TEST(CutMeshTree, is_sound_and_covers_triangles_of_any_kind) {
+  for (const auto& [name, mesh] : meshes_of_every_kind())
+    EXPECT_EQ(find_cut_tree_fault(build_mesh_tree(mesh, {.builder = BvhBuilder::split_sah}), mesh), "") << name;
+}
+
+TEST(CutMeshTree, has_long_triangles_in_several_small_boxes) {
+  const Mesh mesh = beams();
+  const MeshTree whole = build_mesh_tree(mesh, {}), cut = build_mesh_tree(mesh, {.builder = BvhBuilder::split_sah});
+  EXPECT_EQ(find_cut_tree_fault(cut, mesh), "");
+  EXPECT_NE(find_tree_fault(cut, mesh), "") << "no triangle is cut";
+  EXPECT_LT(expected_work(cut), 0.8 * expected_work(whole));
+  EXPECT_LT(static_cast<double>(cut.memory()), 1.4 * static_cast<double>(whole.memory()));
+}
+
+TEST(CutMeshTree, gives_the_hits_of_brute_force) {
+  test::Random rng(23);
+  const std::vector<TracedInstance> instances{TracedInstance{}};
+  const std::vector<Shape> shapes{beams()};
+  const Tracer tracer = test::make_tracer(shapes, instances, {.builder = BvhBuilder::split_sah});
+  int hits = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Ray ray = test::random_ray(rng);
+    Hit hit;
+    tracer.intersect({&ray, 1}, {&hit, 1});
+    const Hit expected = test::brute_force(shapes, instances, ray);
+    hits += expected.is_hit();
+    EXPECT_EQ(hit.primitive, expected.primitive);
+  }
+  EXPECT_GT(hits, 100);
+}
+
+TEST(CutMeshTree, can_be_refitted) {
+  const Mesh mesh = beams();
+  MeshTree tree = build_mesh_tree(mesh, {.builder = BvhBuilder::split_sah});
+  Mesh moved = mesh;
+  for (Vec3f& position : moved.positions) position = Vec3f{position.y, position.z, position.x} * 2.0f;
+  refit(tree, moved);
+  EXPECT_EQ(find_cut_tree_fault(tree, moved), "");
+}
+
 TEST(InstanceTree, has_every_box_that_is_not_empty_in_a_leaf_of_its_own) {
   for (const BvhBuilder builder : builders)
     for (const auto& [name, mesh] : meshes_of_every_kind()) {
@@ -95,29 +158,16 @@ TEST(InstanceTree, takes_boxes_without_end) {
 
 TEST(MeshTree, is_the_same_for_any_number_of_threads) {
   for (const auto& [name, mesh] : meshes_of_every_kind()) {
-    const MeshTree one = build_mesh_tree(mesh, {.threads = 1});
-    for (const int threads : {2, 3, 7}) {
-      const MeshTree several = build_mesh_tree(mesh, {.threads = threads});
-      EXPECT_TRUE(is_same_memory(one.tree.nodes, several.tree.nodes)) << name;
-      EXPECT_TRUE(is_same_memory(one.blocks, several.blocks)) << name;
-      EXPECT_EQ(one.tree.root, several.tree.root) << name;
+    for (const BvhBuilder builder : {BvhBuilder::median, BvhBuilder::binned_sah, BvhBuilder::split_sah}) {
+      const MeshTree one = build_mesh_tree(mesh, {.builder = builder, .threads = 1});
+      for (const int threads : {2, 3, 7}) {
+        const MeshTree several = build_mesh_tree(mesh, {.builder = builder, .threads = threads});
+        EXPECT_TRUE(is_same_memory(one.tree.nodes, several.tree.nodes)) << name;
+        EXPECT_TRUE(is_same_memory(one.blocks, several.blocks)) << name;
+        EXPECT_EQ(one.tree.root, several.tree.root) << name;
+      }
     }
   }
-}
-
-// The expected number of nodes and blocks that a random line which meets the tree's box meets.
-double expected_work(const MeshTree& tree) {
-  double work = 0;
-  for (const TreeNode& node : tree.tree.nodes)
-    for (std::size_t child = 0; child < 8; ++child) {
-      Bounds3<double> box;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.lower[axis] = static_cast<double>(node.bounds[axis][0][child]);
-        box.upper[axis] = static_cast<double>(node.bounds[axis][1][child]);
-      }
-      work += box.half_area();
-    }
-  return work / static_cast<double>(tree.tree.bounds.half_area());
 }
 
 TEST(MeshTree, sah_trees_cost_less_than_median_trees) {
