@@ -12,7 +12,7 @@ WorkerPool::WorkerPool(int threads) {
   try {
     for (int i = 1; i < resolve_thread_count(threads); ++i) threads_.emplace_back([this] { wait_for_turns(); });
   } catch (const std::system_error&) {
-    // The system gives no more: those that are there, at least the caller's, do all the work.
+    // The system has no more threads: those that there are do the work.
   }
 }
 

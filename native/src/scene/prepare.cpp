@@ -7,6 +7,7 @@
 #include <future>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -174,8 +175,13 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
 PreparedScene prepare_watched(const Scene& scene, Report& report, int threads,
                               const std::function<bool(double)>& watch) {
   WorkProgress progress;
-  std::future<PreparedScene> prepared = std::async(
-      std::launch::async, [&] { return prepare(scene, report, {}, {.threads = threads, .progress = &progress}); });
+  const auto work = [&] { return prepare(scene, report, {}, {.threads = threads, .progress = &progress}); };
+  std::future<PreparedScene> prepared;
+  try {
+    prepared = std::async(std::launch::async, work);
+  } catch (const std::system_error&) {
+    return work();  // the system has no more threads: nobody can watch
+  }
   try {
     while (prepared.wait_for(watch_interval) != std::future_status::ready)
       if (!watch(progress.fraction())) progress.cancel();
