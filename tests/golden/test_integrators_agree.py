@@ -50,10 +50,10 @@ def test_both_integrators_make_the_same_picture(builder: str) -> None:
 
 
 @pytest.mark.parametrize("integrator", ["path", "intersection_test"])
-def test_both_trees_make_the_same_picture(integrator: str) -> None:
+def test_all_trees_make_the_same_picture(integrator: str) -> None:
     pictures = []
     for builder in ("median", "binned_sah", "split_sah"):
         scene = room(integrator)
         scene.settings.bvh_builder = builder
         pictures.append(basicrt.render(scene)["Combined"])
-    assert pictures[0].tobytes() == pictures[1].tobytes()
+    assert pictures[0].tobytes() == pictures[1].tobytes() == pictures[2].tobytes()
