@@ -134,7 +134,10 @@ inline LobeValue Bsdf::eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except
   LobeValue sum;
   for (const WeightedLobe& weighted : lobes_.used()) {
     if (&weighted == except) continue;
-    const LobeValue lobe = std::visit([&](const auto& l) { return l.eval(wo, wi); }, weighted.lobe);
+    // The lobe of most surfaces is spared the call, which costs more than it does.
+    const auto* lambert = std::get_if<Lambert>(&weighted.lobe);
+    const LobeValue lobe = lambert ? lambert->eval(wo, wi)
+                                   : std::visit([&](const auto& l) { return l.eval(wo, wi); }, weighted.lobe);
     sum.value += weighted.weight * lobe.value;
     sum.pdf += weighted.selection / selection_ * lobe.pdf;
   }

@@ -22,7 +22,8 @@ template <>
 inline constexpr std::array enum_names<IntegratorKind> = std::to_array<std::string_view>({"path", "intersection_test"});
 
 template <>
-inline constexpr std::array enum_names<BvhBuilder> = std::to_array<std::string_view>({"median", "binned_sah", "split_sah"});
+inline constexpr std::array enum_names<BvhBuilder> =
+    std::to_array<std::string_view>({"median", "binned_sah", "split_sah"});
 
 struct RenderSettings {
   int width = 512, height = 512;
