@@ -110,7 +110,7 @@ class PacketWalk {
   // False where the packet was given up.
   bool run() {
     if (!start()) return false;
-    if (scene_.root >= instance_mark) return visit_instance(scene_.root & reference_index);
+    if (scene_.root >= instance_mark) return visit_instance(scene_.root & reference_index, all_lanes, scratch_.stack);
     if (!prepare_packet_boxes(world_, scratch_.origin, scratch_.direction)) return false;
     world_.nodes = scene_.nodes;
     return walk(world_, scene_.root, scratch_.stack);
@@ -171,7 +171,7 @@ class PacketWalk {
         top = visit_node(space, space.nodes[reference], top);
       } else if (reference < instance_mark) {
         visit_block(space, space.blocks[reference & reference_index], active);
-      } else if (!visit_instance_at(reference & reference_index, top)) {
+      } else if (!visit_instance(reference & reference_index, active, top)) {
         return false;
       }
     }
@@ -266,19 +266,21 @@ class PacketWalk {
     hits.t.store(t);
     hits.u.store(u);
     hits.v.store(v);
-    const KernelHit hit{t[lane], packet_space.instance, block.primitives[lane], u[lane], v[lane]};
-    const KernelHit best{t_.lanes[ray], instances_.lanes[ray], primitives_.lanes[ray], 0, 0};
-    if (is_better(scene_, hit, best))
-      take(Pack::mask(1u << ray), Pack::all(hit.t), Pack::all(hit.u), Pack::all(hit.v), hit.primitive, hit.instance);
+    const KernelHit found{t[lane], packet_space.instance, block.primitives[lane], u[lane], v[lane]};
+    if (is_better(scene_, found, hit(ray)))
+      take(Pack::mask(1u << ray), Pack::all(found.t), Pack::all(found.u), Pack::all(found.v), found.primitive,
+           found.instance);
   }
 
-  bool visit_instance(std::uint32_t index) { return visit_instance_at(index, scratch_.stack); }
-
-  // Walks the instance's tree, with the stack from `top` on. False where the kernel or a packet can't.
-  bool visit_instance_at(std::uint32_t index, PacketItem* top) {
+  // Walks the instance's tree, with the stack from `top` on. False where a packet can't.
+  bool visit_instance(std::uint32_t index, unsigned active, PacketItem* top) {
     const KernelInstance& instance = scene_.instances[index];
     if (!(kinds_ & instance.visibility)) return true;
-    if (instance.root == no_reference) return false;
+    if (instance.root == no_reference) {
+      for (unsigned ray = 0; ray < packet_size; ++ray)
+        if (active >> ray & 1) intersect_precisely(index, ray);
+      return true;
+    }
     const PackVectors *origins = &scratch_.origin, *directions = &scratch_.direction;
     if (instance.space != KernelInstance::Space::world) {
       transform_all(instance);
@@ -300,6 +302,16 @@ class PacketWalk {
     space.blocks = instance.blocks;
     space.instance = index;
     return walk(space, instance.root, top);
+  }
+
+  // One ray and an instance that kernels don't walk.
+  void intersect_precisely(std::uint32_t instance, unsigned ray) {
+    store();
+    const KernelHit best = hit(ray);
+    KernelHit found = best;
+    if (scene_.intersect_precisely(scene_.owner, instance, packet_.rays[ray], found) && is_better(scene_, found, best))
+      take(Pack::mask(1u << ray), Pack::all(found.t), Pack::all(found.u), Pack::all(found.v), found.primitive,
+           instance);
   }
 
   void transform_all(const KernelInstance& instance) {
