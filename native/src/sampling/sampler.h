@@ -38,12 +38,14 @@ class Sampler {
   }
 
   [[nodiscard]] float next_1d() {
-    const std::uint64_t bits = next_bits();
-    return kind_ == SamplerKind::independent ? to_unit_float(high(bits)) : sobol_1d(shuffled_sample(bits), high(bits));
+    const bool is_random = draws_random();
+    const std::uint64_t bits = next_bits(is_random);
+    return is_random ? to_unit_float(high(bits)) : sobol_1d(shuffled_sample(bits), high(bits));
   }
   [[nodiscard]] Vec2f next_2d() {
-    const std::uint64_t bits = next_bits();
-    if (kind_ == SamplerKind::independent) return {to_unit_float(high(bits)), to_unit_float(low(bits))};
+    const bool is_random = draws_random();
+    const std::uint64_t bits = next_bits(is_random);
+    if (is_random) return {to_unit_float(high(bits)), to_unit_float(low(bits))};
     return sobol_2d(shuffled_sample(bits), high(bits), low(bits));
   }
 
@@ -51,9 +53,15 @@ class Sampler {
   static std::uint32_t high(std::uint64_t bits) { return static_cast<std::uint32_t>(bits >> 32); }
   static std::uint32_t low(std::uint64_t bits) { return static_cast<std::uint32_t>(bits); }
 
+  // Spreading the pixel, the lens and the first bounces is what pays; behind that it costs more than it saves.
+  static constexpr std::uint16_t most_spread_draws = 16;
+
+  [[nodiscard]] bool draws_random() const {
+    return kind_ == SamplerKind::independent || dimension_ >= most_spread_draws;
+  }
   // For a Sobol sequence the same for all samples of the pixel: what scrambles it.
-  std::uint64_t next_bits() {
-    const std::uint64_t key = kind_ == SamplerKind::independent ? hash(key_ + sample_) : key_;
+  std::uint64_t next_bits(bool is_random) {
+    const std::uint64_t key = is_random ? hash(key_ + sample_) : key_;
     return hash(key + dimension_++ * 0x9e3779b97f4a7c15u);
   }
   // Each draw goes through its sequence in another order, so that two of them together are as good as random (Kollig
