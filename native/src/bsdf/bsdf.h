@@ -136,8 +136,8 @@ inline LobeValue Bsdf::eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except
     if (&weighted == except) continue;
     // The lobe of most surfaces is spared the call, which costs more than it does.
     const auto* lambert = std::get_if<Lambert>(&weighted.lobe);
-    const LobeValue lobe = lambert ? lambert->eval(wo, wi)
-                                   : std::visit([&](const auto& l) { return l.eval(wo, wi); }, weighted.lobe);
+    const LobeValue lobe =
+        lambert ? lambert->eval(wo, wi) : std::visit([&](const auto& l) { return l.eval(wo, wi); }, weighted.lobe);
     sum.value += weighted.weight * lobe.value;
     sum.pdf += weighted.selection / selection_ * lobe.pdf;
   }
