@@ -9,11 +9,10 @@
 namespace basicrt {
 namespace {
 
-constexpr std::size_t huge_page = std::size_t{2} << 20;
 constexpr std::size_t cache_line = 64;
 
 std::align_val_t alignment_of(std::size_t bytes) {
-  return static_cast<std::align_val_t>(bytes >= huge_page ? huge_page : cache_line);
+  return static_cast<std::align_val_t>(bytes >= huge_page_size ? huge_page_size : cache_line);
 }
 
 }  // namespace
@@ -22,7 +21,7 @@ void* allocate_in_huge_pages(std::size_t bytes) {
   void* memory = ::operator new(bytes, alignment_of(bytes));
 #if defined(__linux__)
   // Whole pages only, so that no memory is taken that nothing uses. The system may refuse: it is only advice.
-  if (bytes >= huge_page) (void)madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
+  if (bytes >= huge_page_size) (void)madvise(memory, bytes / huge_page_size * huge_page_size, MADV_HUGEPAGE);
 #endif
   return memory;
 }

@@ -12,7 +12,9 @@
 
 namespace basicrt {
 
-// Aligned to at least a cache line. Throws std::bad_alloc.
+inline constexpr std::size_t huge_page_size = std::size_t{2} << 20;
+
+// Aligned to at least a cache line; of smaller sizes than a huge page none is asked for. Throws std::bad_alloc.
 [[nodiscard]] void* allocate_in_huge_pages(std::size_t bytes);
 void free_huge_pages(void* memory, std::size_t bytes);
 

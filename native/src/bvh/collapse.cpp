@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "bvh/node_order.h"
+#include "bvh/tree_access.h"
 #include "bvh/tree_layout.h"
 
 namespace basicrt {
@@ -77,11 +78,7 @@ class Collapse {
     BASICRT_ASSERT(index < reference_index);
     layout_.nodes.push_back({});
     for (std::size_t child = 0; child < 8; ++child) {
-      const Bounds3f box = child < parts.size() ? parts[child].bounds : Bounds3f{};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        layout_.nodes[index].bounds[axis][0][child] = box.lower[axis];
-        layout_.nodes[index].bounds[axis][1][child] = box.upper[axis];
-      }
+      set_child_bounds(layout_.nodes[index], child, child < parts.size() ? parts[child].bounds : Bounds3f{});
       const TreeReference reference = child < parts.size() ? build_part(parts[child], depth + 1) : no_reference;
       layout_.nodes[index].children[child] = reference;
     }

@@ -11,6 +11,7 @@
 #include "bvh/cut_references.h"
 #include "bvh/node_order.h"
 #include "bvh/split_bins.h"
+#include "bvh/tree_access.h"
 #include "bvh/tree_layout.h"
 
 namespace basicrt {
@@ -36,18 +37,13 @@ void for_each(WorkerPool& pool, WorkProgress* progress, std::size_t count, const
   });
 }
 
-Bounds3f bounds_of(const Mesh& mesh, std::size_t triangle) {
-  Bounds3f box;
-  for (int corner = 0; corner < 3; ++corner) box.extend(mesh.position(static_cast<std::uint32_t>(triangle), corner));
-  return box;
-}
-
 TreeLayout build_layout(const Mesh& mesh, const BvhConfig& config, WorkerPool& pool) {
   const std::size_t count = mesh.triangles.size();
   BASICRT_ASSERT(count < Reference::most_primitives);
   if (config.builder == BvhBuilder::median) {
     std::vector<Bounds3f> boxes(count);
-    for_each(pool, config.progress, count, [&](std::size_t i) { boxes[i] = bounds_of(mesh, i); });
+    for_each(pool, config.progress, count,
+             [&](std::size_t i) { boxes[i] = triangle_bounds(mesh, static_cast<std::uint32_t>(i)); });
     return collapse_to_layout(build_median_bvh(boxes, config), boxes, block_size, config.progress);
   }
   if (config.builder == BvhBuilder::split_sah) {
@@ -56,8 +52,9 @@ TreeLayout build_layout(const Mesh& mesh, const BvhConfig& config, WorkerPool& p
                             config.progress);
   }
   HugeVector<Reference> references(count);
-  for_each(pool, config.progress, count,
-           [&](std::size_t i) { references[i] = Reference(bounds_of(mesh, i), static_cast<std::uint32_t>(i)); });
+  for_each(pool, config.progress, count, [&](std::size_t i) {
+    references[i] = Reference(triangle_bounds(mesh, static_cast<std::uint32_t>(i)), static_cast<std::uint32_t>(i));
+  });
   return build_sah_layout(std::move(references), config.leaf_size, coarse_bins, pool, config.progress);
 }
 
@@ -82,11 +79,7 @@ void fill(TriangleBlock& block, const Mesh& mesh, std::span<const std::uint32_t>
 
 Bounds3f bounds_of(const TreeNode& node) {
   Bounds3f box;
-  for (std::size_t child = 0; child < 8; ++child)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.lower[axis] = std::min(box.lower[axis], node.bounds[axis][0][child]);
-      box.upper[axis] = std::max(box.upper[axis], node.bounds[axis][1][child]);
-    }
+  for (std::size_t child = 0; child < 8; ++child) box.extend(child_bounds(node, child));
   return box;
 }
 
@@ -98,13 +91,7 @@ Bounds3f refit_nodes(NodeTree& tree, std::span<const Bounds3f> block_bounds) {
   };
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {
     TreeNode& node = tree.nodes[i];
-    for (std::size_t child = 0; child < 8; ++child) {
-      const Bounds3f box = bounds_at(node.children[child]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        node.bounds[axis][0][child] = box.lower[axis];
-        node.bounds[axis][1][child] = box.upper[axis];
-      }
-    }
+    for (std::size_t child = 0; child < 8; ++child) set_child_bounds(node, child, bounds_at(node.children[child]));
     set_order(node);
   }
   return bounds_at(tree.root);
@@ -129,7 +116,7 @@ void refit(MeshTree& tree, const Mesh& mesh, int threads) {
     TriangleBlock& block = tree.blocks[i];
     for (std::size_t lane = 0; lane < block_size; ++lane) {
       set_corners(block, lane, mesh);
-      block_bounds[i].extend(bounds_of(mesh, block.primitives[lane]));
+      block_bounds[i].extend(triangle_bounds(mesh, block.primitives[lane]));
     }
   });
   tree.tree.bounds = refit_nodes(tree.tree, block_bounds);

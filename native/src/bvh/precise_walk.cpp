@@ -4,25 +4,12 @@
 
 #include <vector>
 
+#include "bvh/tree_access.h"
 #include "geometry/aabb.h"
 #include "geometry/triangle.h"
 
 namespace basicrt {
 namespace {
-
-Vec3f corner(const TriangleBlock& block, std::size_t lane, std::size_t corner_index) {
-  const auto& axes = block.corners[corner_index];
-  return {axes[0][lane], axes[1][lane], axes[2][lane]};
-}
-
-Bounds3f child_bounds(const TreeNode& node, std::size_t child) {
-  Bounds3f box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = node.bounds[axis][0][child];
-    box.upper[axis] = node.bounds[axis][1][child];
-  }
-  return box;
-}
 
 Hit make_hit(double t, std::uint32_t primitive, double u, double v) {
   return {.t = static_cast<float>(t), .primitive = primitive, .u = static_cast<float>(u), .v = static_cast<float>(v)};
@@ -32,7 +19,8 @@ Hit make_hit(double t, std::uint32_t primitive, double u, double v) {
 void intersect_block(const TriangleBlock& block, PreciseRay& ray, std::optional<Hit>& nearest) {
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const double t_max = ray.t_max;
-    const auto hit = intersect_triangle(ray, corner(block, lane, 0), corner(block, lane, 1), corner(block, lane, 2));
+    const auto hit =
+        intersect_triangle(ray, corner_of(block, lane, 0), corner_of(block, lane, 1), corner_of(block, lane, 2));
     if (!hit) continue;
     const bool is_tie = hit->t == t_max && nearest;
     if (is_tie && block.primitives[lane] >= nearest->primitive) continue;

@@ -14,6 +14,7 @@
 #include "bvh/kernels/chosen_kernel.h"
 #include "bvh/kernels/scratch.h"
 #include "bvh/precise_walk.h"
+#include "bvh/tree_access.h"
 #include "geometry/precise_ray.h"
 #include "geometry/triangle.h"
 #include "math/next_float.h"
@@ -34,10 +35,13 @@ KernelInstance::Space space_of(const TransformD& world_to_object) {
   return world_to_object == TransformD{} ? KernelInstance::Space::world : KernelInstance::Space::translated;
 }
 
-// Beyond, products of coordinates may overflow or underflow single precision.
-bool is_usable_for_kernels(float reach) { return reach >= 0x1p-40f && reach <= 0x1p40f; }
+float reach_of(const Bounds3f& box) { return max_component(max(abs(box.lower), abs(box.upper))); }
 
-KernelInstance kernel_instance(const ShapeTree& tree, const TracedInstance& instance) {
+// Beyond, products of coordinates may overflow or underflow single precision.
+bool is_usable_for_kernels(const Bounds3f& box) { return reach_of(box) >= 0x1p-40f && reach_of(box) <= 0x1p40f; }
+
+// `mesh` is null where the instance is of another shape.
+KernelInstance kernel_instance(const MeshTree* mesh, const TracedInstance& instance) {
   KernelInstance result{};
   for (std::size_t row = 0; row < 3; ++row)
     for (std::size_t column = 0; column < 4; ++column)
@@ -45,9 +49,8 @@ KernelInstance kernel_instance(const ShapeTree& tree, const TracedInstance& inst
   result.root = result.first_merged = no_reference;
   result.visibility = instance.visibility;
   result.space = space_of(instance.world_to_object);
-  const auto* mesh = std::get_if<MeshTree>(&tree.geometry);
-  result.reach = max_component(max(abs(tree.bounds.lower), abs(tree.bounds.upper)));
-  if (mesh == nullptr || !is_usable_for_kernels(result.reach)) return result;
+  if (mesh == nullptr || !is_usable_for_kernels(mesh->tree.bounds)) return result;
+  result.reach = reach_of(mesh->tree.bounds);
   result.nodes = mesh->tree.nodes.data();
   result.blocks = mesh->blocks.data();
   result.root = mesh->tree.root;
@@ -121,7 +124,7 @@ Tracer::Tracer(std::vector<ShapeTree> trees, std::vector<TracedInstance> instanc
     const ShapeTree& tree = trees_[instance.shape];
     boxes.push_back(world_bounds(tree.bounds, instance));
     bounds_.extend(boxes.back());
-    kernel_instances_.push_back(kernel_instance(tree, instance));
+    kernel_instances_.push_back(kernel_instance(std::get_if<MeshTree>(&tree.geometry), instance));
   }
   merge_small_meshes(config);
   for (std::size_t i = 0; i < instances_.size(); ++i)
@@ -150,11 +153,10 @@ void Tracer::merge_small_meshes(const BvhConfig& config) {
       merged_owners_.push_back({i, primitive});
     }
   }
-  merged_ = build_mesh_tree(merged, {.builder = config.builder, .leaf_size = 2});
-  const ShapeTree tree{.geometry = merged_, .bounds = merged_.tree.bounds};
-  KernelInstance all = kernel_instance(tree, TracedInstance{});
-  all.nodes = merged_.tree.nodes.data();
-  all.blocks = merged_.blocks.data();
+  BvhConfig small_blocks = config;
+  small_blocks.leaf_size = 2;
+  merged_ = build_mesh_tree(merged, small_blocks);
+  KernelInstance all = kernel_instance(&merged_, TracedInstance{});
   all.owners = merged_owners_.data();
   kernel_instances_.push_back(all);
 }

@@ -7,17 +7,10 @@
 #include <random>
 #include <vector>
 
+#include "bvh/tree_access.h"
+
 namespace basicrt {
 namespace {
-
-Bounds3f child_bounds(const TreeNode& node, std::size_t child) {
-  Bounds3f box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = node.bounds[axis][0][child];
-    box.upper[axis] = node.bounds[axis][1][child];
-  }
-  return box;
-}
 
 bool is_same_position(Vec3f a, Vec3f b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -120,20 +113,13 @@ std::string check_block(const TriangleBlock& block, const Mesh& mesh, const Visi
     if (lane > 0 && triangle < block.primitives[lane - 1]) return name + "is not in ascending order";
     if (triangle >= mesh.triangles.size()) return name + "does not exist";
     for (int corner = 0; corner < 3; ++corner) {
-      const Vec3f position{block.corners[corner][0][lane], block.corners[corner][1][lane],
-                           block.corners[corner][2][lane]};
+      const Vec3f position = corner_of(block, lane, corner);
       if (!is_same_position(position, mesh.position(triangle, corner))) return name + "is not where the mesh has it";
     }
     if (!is_missing)
       if (std::string fault = visit(triangle); !fault.empty()) return fault;
   }
   return {};
-}
-
-Bounds3f bounds_of(const Mesh& mesh, std::uint32_t triangle) {
-  Bounds3f box;
-  for (int corner = 0; corner < 3; ++corner) box.extend(mesh.position(triangle, corner));
-  return box;
 }
 
 // Checks the nodes, and blocks with visit(triangle, box).
@@ -178,7 +164,7 @@ bool is_covered(const Mesh& mesh, std::uint32_t triangle, const std::vector<Boun
 std::string find_tree_fault(const MeshTree& tree, const Mesh& mesh) {
   Uses uses(mesh.triangles.size());
   const auto visit = [&](std::uint32_t triangle, const Bounds3f& box) -> std::string {
-    if (!box.contains(bounds_of(mesh, triangle)))
+    if (!box.contains(triangle_bounds(mesh, triangle)))
       return "primitive " + std::to_string(triangle) + ": is not inside its leaf";
     return uses.add(triangle);
   };

@@ -29,7 +29,7 @@ struct TreeLayout {
   }
 };
 
-// By the surface area heuristic, straight into nodes of eight. Leaves hold up to `leaf_size` primitives: 1 or 4. A
+// By the surface area heuristic, straight into nodes of eight. Leaves hold up to `leaf_size` primitives: 1, 2 or 4. A
 // primitive may have several references. The same for any number of threads.
 [[nodiscard]] TreeLayout build_sah_layout(HugeVector<Reference> references, int leaf_size, int most_bins,
                                           WorkerPool& pool, WorkProgress* progress);

@@ -29,6 +29,12 @@ struct Mesh {
 
 [[nodiscard]] Bounds3f bounds(const Mesh& mesh);
 
+[[nodiscard]] inline Bounds3f triangle_bounds(const Mesh& mesh, std::uint32_t triangle) {
+  Bounds3f box;
+  for (int corner = 0; corner < 3; ++corner) box.extend(mesh.position(triangle, corner));
+  return box;
+}
+
 // Throws SceneError, naming `item`, when an index is out of range, a number is not finite or an array has the
 // wrong length.
 void validate(const Mesh& mesh, std::string_view item);

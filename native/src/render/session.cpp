@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 // Enough rays for the tracer to chew on, few enough to stay in the cache and to stop soon.
 constexpr std::uint32_t batch_size = 512;
 
-// Where a sample goes: a pixel of the tile, and its weight there.
+// Where a sample goes: a pixel of the tile, and the sign of its weight there.
 struct Place {
   int x, y;
   bool is_negative;

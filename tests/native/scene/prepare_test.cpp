@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "bvh/test_scenes.h"
 
 namespace basicrt {
 namespace {
@@ -74,18 +75,11 @@ TEST(Prepare, a_changed_shape_is_built_again_and_an_unchanged_one_is_still_hit) 
 
 // A grid of 2 * cells^2 triangles over bumps.
 Mesh large_mesh(std::uint32_t cells) {
-  Mesh mesh;
-  for (std::uint32_t y = 0; y <= cells; ++y)
-    for (std::uint32_t x = 0; x <= cells; ++x) {
-      const auto u = static_cast<float>(x), v = static_cast<float>(y);
-      mesh.positions.push_back({u, v, std::sin(u) * std::cos(v)});
-    }
-  for (std::uint32_t y = 0; y < cells; ++y)
-    for (std::uint32_t x = 0; x < cells; ++x) {
-      const std::uint32_t corner = y * (cells + 1) + x;
-      mesh.triangles.push_back({corner, corner + 1, corner + cells + 2});
-      mesh.triangles.push_back({corner, corner + cells + 2, corner + cells + 1});
-    }
+  Mesh mesh = test::flat_grid(cells);
+  for (Vec3f& p : mesh.positions) {
+    const Vec3f place = p * (static_cast<float>(cells) / 2);  // a unit for each cell
+    p = {place.x, place.y, std::sin(place.x) * std::cos(place.y)};
+  }
   return mesh;
 }
 
