@@ -126,14 +126,14 @@ Tracer::Tracer(std::vector<ShapeTree> trees, std::vector<TracedInstance> instanc
     bounds_.extend(boxes.back());
     kernel_instances_.push_back(kernel_instance(std::get_if<MeshTree>(&tree.geometry), instance));
   }
-  merge_small_meshes(config);
+  merge_small_meshes(boxes, config);
   for (std::size_t i = 0; i < instances_.size(); ++i)
     if (kernel_instances_[i].first_merged != no_reference) boxes[i] = Bounds3f{};
   boxes.push_back(merged_.tree.bounds);
   instance_tree_ = build_instance_tree(boxes, config);
 }
 
-void Tracer::merge_small_meshes(const BvhConfig& config) {
+void Tracer::merge_small_meshes(std::span<const Bounds3f> boxes, const BvhConfig& config) {
   std::vector<std::uint32_t> use_counts(trees_.size());
   for (const TracedInstance& instance : instances_) ++use_counts[instance.shape];
   Mesh merged;
@@ -142,7 +142,7 @@ void Tracer::merge_small_meshes(const BvhConfig& config) {
     const auto* mesh = std::get_if<MeshTree>(&trees_[instance.shape].geometry);
     const bool is_small = mesh != nullptr && 4 * mesh->blocks.size() < smallest_own_tree;
     if (!is_small || use_counts[instance.shape] > 1 || instance.visibility != ray_all ||
-        kernel_instances_[i].root == no_reference)
+        kernel_instances_[i].root == no_reference || !is_usable_for_kernels(boxes[i]))
       continue;
     kernel_instances_[i].first_merged = static_cast<std::uint32_t>(merged.triangles.size());
     for (const auto& corners : world_triangles(*mesh, instance.object_to_world)) {

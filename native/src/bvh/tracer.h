@@ -47,7 +47,8 @@ class Tracer {
 
  private:
   [[nodiscard]] KernelScene kernel_scene() const;
-  void merge_small_meshes(const BvhConfig& config);
+  void merge_small_meshes(std::span<const Bounds3f> boxes,
+                          const BvhConfig& config);  // boxes: of the instances, in the world
   // The nearest hit on one instance in double precision: for what kernels don't walk.
   [[nodiscard]] bool intersect_precisely(std::uint32_t instance, const Ray& ray, Hit& hit) const;
 

@@ -244,6 +244,19 @@ TEST(Tracer, gives_its_trees_back_ready_for_the_next) {
     EXPECT_EQ(hits[i].primitive, test::brute_force(shapes, moved, rays[i]).primitive);
 }
 
+TEST(Tracer, hits_small_meshes_too_far_away_or_too_small_for_single_precision) {
+  const Mesh grid = test::flat_grid(1);
+  const TransformD far_away({{{1e6, 0, 0, 0}, {0, 1e6, 0, 0}, {0, 0, 1, 4e12}}});
+  const TransformD tiny({{{1e-14, 0, 0, 0}, {0, 1e-14, 0, 0}, {0, 0, 1, 0}}});
+  for (const TransformD& transform : {far_away, tiny}) {
+    const Tracer tracer = test::make_tracer({grid, grid}, {test::place(0, transform), test::place(1, transform)}, {});
+    const std::vector<Ray> rays(32, {.origin = {1e-15f, 2e-15f, -1}, .direction = {0, 0, 1}});
+    std::vector<Hit> hits(rays.size());
+    tracer.intersect(rays, hits);
+    for (const Hit& hit : hits) EXPECT_EQ(hit.instance, 0u);
+  }
+}
+
 TEST(Tracer, bounds_hold_every_instance) {
   test::Random rng(9);
   const Mesh mesh = test::soup(rng, 50, 0.5f);
