@@ -10,6 +10,7 @@ import bpy
 import basicrt
 
 from ..properties import settings_of
+from ..properties.choice import Choice
 from ..report import Report
 from .camera import resolution
 
@@ -46,6 +47,12 @@ def enabled_passes(b_view_layer: bpy.types.ViewLayer) -> list[basicrt.PassInfo]:
     ]
 
 
+def _seed(chosen: Choice, b_scene: bpy.types.Scene) -> int:
+    """Another one in each frame where the user wants that."""
+    seed: int = chosen.seed
+    return seed + (b_scene.frame_current << 32) if chosen.use_animated_seed else seed
+
+
 def convert(
     b_scene: bpy.types.Scene,
     b_view_layer: bpy.types.ViewLayer,
@@ -54,25 +61,25 @@ def convert(
 ) -> None:
     """Fill in `settings`."""
     b_render = b_scene.render
-    own = settings_of(b_scene)
+    own, chosen = settings_of(b_scene), Choice(b_scene)
     rectangle = border(b_render)
     settings.width, settings.height = resolution(b_render)
     settings.border_x, settings.border_y = rectangle.x, rectangle.y
     settings.border_width, settings.border_height = rectangle.width, rectangle.height
 
-    settings.samples = b_view_layer.samples or own.samples
-    settings.seed = own.seed
+    settings.samples = b_view_layer.samples or chosen.samples
+    settings.seed = _seed(chosen, b_scene)
     settings.sampler = own.sampler.lower()
-    settings.max_bounces = own.max_bounces
-    settings.diffuse_bounces = own.diffuse_bounces
-    settings.glossy_bounces = own.glossy_bounces
-    settings.transmission_bounces = own.transmission_bounces
-    settings.transparent_bounces = own.transparent_bounces
+    settings.max_bounces = chosen.max_bounces
+    settings.diffuse_bounces = chosen.diffuse_bounces
+    settings.glossy_bounces = chosen.glossy_bounces
+    settings.transmission_bounces = chosen.transmission_bounces
+    settings.transparent_bounces = chosen.transparent_bounces
     settings.bvh_builder = own.bvh_builder.lower()
 
-    settings.filter_type = own.filter_type.lower()
-    settings.filter_radius = 0.5 if own.filter_type == "BOX" else own.filter_width
-    settings.exposure = own.film_exposure
+    settings.filter_type = chosen.filter_type.lower()
+    settings.filter_radius = 0.5 if chosen.filter_type == "BOX" else chosen.filter_width
+    settings.exposure = chosen.film_exposure
     settings.film_transparent = b_render.film_transparent
     settings.passes = [info.name for info in enabled_passes(b_view_layer)]
 

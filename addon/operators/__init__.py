@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
-from . import export_scene
+from . import cycles_settings, export_scene
 
 
 def register() -> None:
     """Add the operators and their menu entries."""
     export_scene.register()
+    cycles_settings.register()
 
 
 def unregister() -> None:
     """Take them away."""
+    cycles_settings.unregister()
     export_scene.unregister()

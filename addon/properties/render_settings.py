@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The render settings kept in each scene as `scene.basicrt`; the defaults are Cycles'."""
+"""The render settings kept in each scene as `scene.basicrt`."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 FILTERS = (
     ("BLACKMAN_HARRIS", "Blackman-Harris", "Smooth, hardly any aliasing; Cycles' default"),
@@ -37,11 +37,13 @@ def _bounces(name: str, default: int, description: str) -> Any:
 
 
 class BasicRTRenderSettings(bpy.types.PropertyGroup):
-    """How BasicRT renders a scene."""
+    """How BasicRT renders a scene. Read it through `Choice`, which knows when Cycles' values count."""
 
     if TYPE_CHECKING:
+        use_cycles_settings: bool
         samples: int
         seed: int
+        use_animated_seed: bool
         sampler: str
         max_bounces: int
         diffuse_bounces: int
@@ -54,6 +56,12 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         tile_size: int
         bvh_builder: str
     else:
+        use_cycles_settings: BoolProperty(
+            name="Use Cycles Settings",
+            description="Read every setting that Cycles has too from Cycles. Without it, only those "
+            "that were changed for Cycles and never for BasicRT",
+            default=False,
+        )
         samples: IntProperty(
             name="Samples",
             description="Paths traced for each pixel; twice the noise needs a quarter of them",
@@ -67,6 +75,11 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
             description="Another seed gives other noise, the same seed the same picture",
             default=0,
             min=0,
+        )
+        use_animated_seed: BoolProperty(
+            name="Animated Seed",
+            description="Other noise in each frame",
+            default=False,
         )
         sampler: EnumProperty(
             name="Sampler",

@@ -10,6 +10,7 @@ import bpy
 
 from ..engine import BasicRTRenderEngine
 from ..properties import settings_of
+from ..properties.choice import Choice, has_cycles
 from ..report import shown_warnings
 
 
@@ -34,6 +35,14 @@ class _Panel:
         return self.layout.column()
 
 
+def _draw(column: Any, context: Any, name: str) -> None:
+    """One of our settings, or Cycles' where that is the one that counts."""
+    source = Choice(context.scene).source(name)
+    label = settings_of(context.scene).bl_rna.properties[name].name
+    text = f"{label} (Cycles)" if source.is_cycles else label
+    column.prop(source.owner, source.name, text=text)
+
+
 class BASICRT_RENDER_PT_sampling(_Panel, bpy.types.Panel):
     """How much noise is left."""
 
@@ -42,9 +51,31 @@ class BASICRT_RENDER_PT_sampling(_Panel, bpy.types.Panel):
     def draw(self, context: Any) -> None:
         """Blender's callback."""
         column = self.column()
-        column.prop(settings_of(context.scene), "samples")
-        column.prop(settings_of(context.scene), "seed")
-        column.prop(settings_of(context.scene), "sampler")
+        _draw(column, context, "samples")
+        row = column.row(align=True)
+        _draw(row, context, "seed")
+        source = Choice(context.scene).source("use_animated_seed")
+        row.prop(source.owner, source.name, icon_only=True, icon="TIME")
+        _draw(column, context, "sampler")
+
+
+class BASICRT_RENDER_PT_cycles(_Panel, bpy.types.Panel):
+    """What is read from Cycles."""
+
+    bl_label = "Cycles Settings"
+    bl_parent_id = "BASICRT_RENDER_PT_sampling"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Blender's callback: not without Cycles."""
+        return super().poll(context) and has_cycles(context.scene)
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        column.prop(settings_of(context.scene), "use_cycles_settings")
+        column.operator("basicrt.copy_cycles_settings")
 
 
 class BASICRT_RENDER_PT_light_paths(_Panel, bpy.types.Panel):
@@ -56,10 +87,10 @@ class BASICRT_RENDER_PT_light_paths(_Panel, bpy.types.Panel):
     def draw(self, context: Any) -> None:
         """Blender's callback."""
         column = self.column()
-        column.prop(settings_of(context.scene), "max_bounces")
+        _draw(column, context, "max_bounces")
         column.separator()
         for kind in ("diffuse", "glossy", "transmission", "transparent"):
-            column.prop(settings_of(context.scene), f"{kind}_bounces")
+            _draw(column, context, f"{kind}_bounces")
 
 
 class BASICRT_RENDER_PT_film(_Panel, bpy.types.Panel):
@@ -71,14 +102,13 @@ class BASICRT_RENDER_PT_film(_Panel, bpy.types.Panel):
     def draw(self, context: Any) -> None:
         """Blender's callback."""
         column = self.column()
-        settings = settings_of(context.scene)
-        column.prop(settings, "film_exposure")
+        _draw(column, context, "film_exposure")
         column.prop(context.scene.render, "film_transparent", text="Transparent")
         column.separator()
-        column.prop(settings, "filter_type")
+        _draw(column, context, "filter_type")
         row = column.row()
-        row.active = settings.filter_type != "BOX"
-        row.prop(settings, "filter_width")
+        row.active = Choice(context.scene).filter_type != "BOX"
+        _draw(row, context, "filter_width")
 
 
 class BASICRT_RENDER_PT_performance(_Panel, bpy.types.Panel):
@@ -157,6 +187,7 @@ class BASICRT_OBJECT_PT_ray_visibility(_Panel, bpy.types.Panel):
 
 _PANELS = (
     BASICRT_RENDER_PT_sampling,
+    BASICRT_RENDER_PT_cycles,
     BASICRT_RENDER_PT_light_paths,
     BASICRT_RENDER_PT_film,
     BASICRT_RENDER_PT_performance,

@@ -34,7 +34,7 @@ def test_settings_have_defaults_descriptions_and_survive_a_file(tmp_path: Any) -
     scene = new_scene()
     properties = type(scene.basicrt).bl_rna.properties
     own = [p for p in properties if p.identifier not in {"rna_type", "name"}]
-    assert len(own) == 13
+    assert len(own) == 15
     assert all(p.description for p in own)
     scene.basicrt.samples = 77
     path = str(tmp_path / "file.blend")
@@ -59,7 +59,7 @@ def test_core_panels_are_shown() -> None:
 
 def test_own_panels_are_shown_for_no_other_engine() -> None:
     own = [p for p in all_panels() if p.__name__.startswith("BASICRT_")]
-    assert len(own) == 7
+    assert len(own) == 8
     assert all({"BASICRT"} == p.COMPAT_ENGINES for p in own)
 
 
@@ -72,6 +72,7 @@ def test_panels_do_not_leak_after_unregister(unregistered: None) -> None:
 def test_nothing_else_is_left_after_unregister(unregistered: None) -> None:
     assert not hasattr(bpy.types.Scene, "basicrt")
     assert not hasattr(bpy.types, "BASICRT_OT_export_scene")
+    assert not hasattr(bpy.types, "BASICRT_OT_copy_cycles_settings")
     assert not hasattr(bpy.types, "BASICRT_RENDER_PT_sampling")
     with pytest.raises(TypeError):
         bpy.context.scene.render.engine = "BASICRT"
