@@ -70,11 +70,15 @@ def test_without_cycles_ours_count(scene: Any) -> None:
 
 
 def test_animated_seed_differs_from_frame_to_frame(scene: Any) -> None:
-    scene.cycles.seed = 3
-    assert export().settings.seed == 3
-    scene.cycles.use_animated_seed = True
+    scene.cycles.seed, scene.cycles.use_animated_seed = 3, True
     seeds = []
     for frame in (1, 2):
         scene.frame_set(frame)
         seeds.append(export().settings.seed)
     assert seeds[0] != seeds[1]
+
+
+def test_seed_is_the_same_in_every_frame(scene: Any) -> None:
+    scene.cycles.seed = 3
+    scene.frame_set(2)
+    assert export().settings.seed == 3
