@@ -1,140 +1,307 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rays per second and build times on three meshes that the program makes itself.
-//
-// rays [--size small|full] [--runs N]      one thread; medians of N interleaved runs
-#include <chrono>
-#include <cmath>
+// Rays per second of the tracer beside Embree, where that is installed: the same rays in the same process, in turns. The
+// options are in `usage`.
+#include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
+#include <exception>
+#include <functional>
 #include <map>
-#include <random>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/parallel_for.h"
+#include "base/worker_pool.h"
+#include "bvh/kernels/chosen_kernel.h"
 #include "bvh/tracer.h"
-#include "geometry/surface_point.h"
-#include "math/frame.h"
-#include "math/warp.h"
-#include "meshes.h"
+#include "ray_sets.h"
+#include "report.h"
+#include "scenes.h"
+
+#if defined(BASICRT_WITH_EMBREE)
+#include "embree.h"
+#endif
 
 namespace {
 
 using namespace basicrt;
 using namespace basicrt::benchmark;
-using Clock = std::chrono::steady_clock;
 
-std::vector<Ray> make_primary_rays(int side) {
-  std::vector<Ray> rays;
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const Vec3f target{(2.0f * static_cast<float>(x) + 1) / static_cast<float>(side) - 1,
-                         (2.0f * static_cast<float>(y) + 1) / static_cast<float>(side) - 1, 0};
-      const Vec3f origin{0.1f, 0.6f, 2.8f};
-      rays.push_back({.origin = origin, .direction = normalize(target * 0.8f - origin)});
-    }
-  return rays;
-}
+constexpr const char* usage =
+    R"(rays [options] [FILE.obj...]   the scenes that the program makes itself, and those of the files
+  --scenes NAME,...  only these (files are always traced): cornell, terrain, soup, overlap, hall, hair, instances
+  --rays NAME,...    only these: primary, shadow, tile (diffuse, in tile order), shuffled (diffuse)
+  --size full|small  of the scenes
+  --side N           pixels along a side of the picture, rounded up to a power of two; 512
+  --runs N           medians of so many; 5
+  --threads N        1, timed by the processor's clock; 0 for one on each processor. Several are timed by the wall's, and
+                     compared with one
+  --call N           rays in one call of the tracer; 512, as in renders
+  --kernel NAME      avx512, avx2, sse42 or scalar instead of the machine's best
+)";
 
-struct SecondaryRays {
-  std::vector<Ray> shadow, diffuse;
+struct Options {
+  std::vector<std::string> scenes, rays;  // empty: all
+  std::string kernel;
+  bool is_small = false;
+  int side = 512, runs = 5, threads = 1;
+  std::size_t call = 512;
+  std::vector<std::string> files;
 };
 
-// From where the primary rays hit: towards a light above, and in cosine-distributed directions.
-SecondaryRays make_secondary_rays(const Shape& shape, std::span<const Ray> primary, std::span<const Hit> hits) {
-  SecondaryRays rays;
-  std::mt19937 rng(11);
-  std::uniform_real_distribution<float> uniform(0, 1);
-  for (std::size_t i = 0; i < primary.size(); ++i) {
-    if (!hits[i].is_hit()) continue;
-    const SurfacePoint point = make_surface_point(shape, {}, primary[i], hits[i]);
-    const Vec3f normal = point.is_backfacing ? -point.geometric_normal : point.geometric_normal;
-    const Vec3f to_light = Vec3f{0.3f, 0.9f, 0.2f} - point.position;
-    const float distance = length(to_light);
-    rays.shadow.push_back(
-        {.origin = offset_origin(point, to_light), .direction = to_light / distance, .t_max = distance});
-    const Vec3f bounce = make_frame(normal).to_world(sample_cosine_hemisphere({uniform(rng), uniform(rng)}));
-    rays.diffuse.push_back({.origin = offset_origin(point, bounce), .direction = bounce});
+std::vector<std::string> split(const std::string& text) {
+  std::istringstream words(text);
+  std::vector<std::string> result;
+  for (std::string word; std::getline(words, word, ',');) result.push_back(word);
+  return result;
+}
+
+bool is_wanted(const std::vector<std::string>& list, const std::string& name) {
+  return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
+}
+
+Options parse(int argc, char** argv) {
+  Options options;
+  const auto number = [](const std::string& text, int least) { return std::max(least, std::atoi(text.c_str())); };
+  const std::map<std::string_view, std::function<void(const std::string&)>> setters{
+      {"--scenes", [&](const std::string& value) { options.scenes = split(value); }},
+      {"--rays", [&](const std::string& value) { options.rays = split(value); }},
+      {"--kernel", [&](const std::string& value) { options.kernel = value; }},
+      {"--size", [&](const std::string& value) { options.is_small = value == "small"; }},
+      {"--side", [&](const std::string& value) { options.side = number(value, 16); }},
+      {"--runs", [&](const std::string& value) { options.runs = number(value, 1); }},
+      {"--threads", [&](const std::string& value) { options.threads = resolve_thread_count(number(value, 0)); }},
+      {"--call", [&](const std::string& value) { options.call = static_cast<std::size_t>(number(value, 1)); }}};
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const auto setter = setters.find(word);
+    if (setter != setters.end() && i + 1 < argc)
+      setter->second(argv[++i]);
+    else if (word.starts_with("-"))
+      throw std::runtime_error(usage);
+    else
+      options.files.push_back(word);
   }
-  return rays;
+  options.side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(options.side)));
+  return options;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
+// What is measured on one set of rays: it gets ready untimed, and traces any part of the rays on any thread.
+struct Tracing {
+  std::function<void()> prepare;
+  std::function<void(std::size_t begin, std::size_t end)> trace;
+  WorkerPool* pool;
+  std::vector<double> rates;  // rays per second
+};
+
+void measure(Tracing& tracing, std::size_t ray_count) {
+  constexpr std::size_t chunk_size = 4096;
+  if (tracing.prepare) tracing.prepare();
+  const double begin = now(tracing.pool->thread_count());
+  tracing.pool->for_each((ray_count + chunk_size - 1) / chunk_size, [&](std::size_t chunk) {
+    tracing.trace(chunk * chunk_size, std::min(ray_count, (chunk + 1) * chunk_size));
+  });
+  tracing.rates.push_back(static_cast<double>(ray_count) / (now(tracing.pool->thread_count()) - begin));
 }
 
-template <class Work>
-double seconds(Work&& work) {
-  const auto begin = Clock::now();
-  work();
-  return std::chrono::duration<double>(Clock::now() - begin).count();
+double median_ratio(const Tracing& a, const Tracing& b) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < a.rates.size(); ++i) ratios.push_back(a.rates[i] / b.rates[i]);
+  return median(ratios);
 }
 
-void run(const std::string& name, Mesh mesh, int runs, int side) {
-  const double triangles = static_cast<double>(mesh.triangles.size());
-  const Shape shape = std::move(mesh);
-
-  std::map<BvhBuilder, std::vector<double>> builds;
-  for (int i = 0; i < runs; ++i)
-    for (const BvhBuilder builder : {BvhBuilder::median, BvhBuilder::binned_sah})
-      builds[builder].push_back(seconds([&] { (void)build_shape_tree(shape, {.builder = builder}); }));
-
-  const BvhConfig config;
-  std::vector<ShapeTree> trees;
-  trees.push_back(build_shape_tree(shape, config));
-  const Tracer tracer(std::move(trees), {TracedInstance{}}, config);
-
-  const std::vector<Ray> primary = make_primary_rays(side);
-  std::vector<Hit> hits(primary.size());
-  tracer.intersect(primary, hits);
-  const SecondaryRays secondary = make_secondary_rays(shape, primary, hits);
-
-  const auto closest = [&](const std::vector<Ray>& rays) {
-    return static_cast<double>(rays.size()) /
-           seconds([&] { tracer.intersect(rays, std::span(hits).first(rays.size())); });
-  };
-  std::vector<std::uint8_t> results(primary.size());
-  const auto any = [&](const std::vector<Ray>& rays) {
-    return static_cast<double>(rays.size()) /
-           seconds([&] { tracer.occluded(rays, std::span(results).first(rays.size())); });
-  };
-  std::vector<double> rates[3];
-  for (int i = 0; i < runs; ++i) {
-    rates[0].push_back(closest(primary));
-    rates[1].push_back(any(secondary.shadow));
-    rates[2].push_back(closest(secondary.diffuse));
+// The table: a line for each kind of rays and figure, a column for each scene.
+class Table {
+ public:
+  void add_scene(const std::string& name) { scenes_.push_back(name); }
+  void add(const std::string& rays, const std::string& figure, double value) {
+    for (Line& line : lines_)
+      if (line.rays == rays && line.figure == figure) return line.values.push_back(value);
+    lines_.push_back({rays, figure, {value}});
   }
-  std::printf("| %s | %.0f | %.3f | %.3f | %.2f | %.2f | %.2f |\n", name.c_str(), triangles / 1000,
-              median(builds[BvhBuilder::median]), median(builds[BvhBuilder::binned_sah]), median(rates[0]) / 1e6,
-              median(rates[1]) / 1e6, median(rates[2]) / 1e6);
-}
+  void print() const {
+    std::printf("| rays | figure |");
+    for (const std::string& scene : scenes_) std::printf(" %s |", scene.c_str());
+    std::printf(" geometric mean |\n|---|---|");
+    for (std::size_t i = 0; i <= scenes_.size(); ++i) std::printf("---|");
+    for (const Line& line : lines_) {
+      std::printf("\n| %s | %s |", line.rays.c_str(), line.figure.c_str());
+      for (const double value : line.values) std::printf(" %.2f |", value);
+      std::printf(" %.2f |", geometric_mean(line.values));
+    }
+    std::printf("\n");
+  }
 
-std::string machine() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown processor";
+ private:
+  struct Line {
+    std::string rays, figure;
+    std::vector<double> values;
+  };
+  std::vector<std::string> scenes_;
+  std::vector<Line> lines_;
+};
+
+class SceneBenchmark {
+ public:
+  SceneBenchmark(BenchmarkScene scene, const Options& options, Table& table)
+      : options_(options), table_(table), one_thread_(1), threads_(options.threads), scene_(std::move(scene)) {
+    std::vector<ShapeTree> trees;
+    for (const Shape& shape : scene_.shapes) trees.push_back(build_shape_tree(shape, {}));
+    tracer_ = Tracer(std::move(trees), scene_.instances, {});
+    tracer_.use(*find_kernel(options.kernel.empty() ? chosen_kernel().name : options.kernel));
+    table_.add_scene(scene_.name);
+  }
+
+  void run() {
+#if defined(BASICRT_WITH_EMBREE)
+    build_embree();
+#endif
+    for (const RaySet& set : make_ray_sets(scene_, tracer_, options_.side)) {
+      const auto last_word = set.name.substr(set.name.rfind(' ') + 1);
+      if (is_wanted(options_.rays, last_word == "order" ? "tile" : last_word)) run(set);
+    }
+  }
+
+ private:
+  void run(const RaySet& set) {
+    const std::size_t count = set.rays.size();
+    hits_.resize(count);
+    is_occluded_.resize(count);
+    Tracing calls{.prepare = {}, .trace = trace_in_calls(set, options_.call), .pool = &threads_, .rates = {}};
+    Tracing alone{.prepare = {}, .trace = trace_in_calls(set, 1), .pool = &threads_, .rates = {}};
+    std::vector<Tracing*> all{&calls, &alone};
+    std::optional<Tracing> on_one_thread;
+    if (options_.threads > 1) {
+      on_one_thread = calls;
+      on_one_thread->pool = &one_thread_;
+      all.push_back(&*on_one_thread);
+    }
+#if defined(BASICRT_WITH_EMBREE)
+    const EmbreeQuery query{.is_any = set.is_any, .is_coherent = false};
+    const EmbreeQuery packet_query{.is_any = set.is_any, .is_coherent = true};
+    EmbreeRays rays;
+    EmbreePackets packets;
+    Tracing embree{
+        .prepare = [&] { rays.set(set.rays); },
+        .trace = [&](std::size_t begin, std::size_t end) { rays.trace(embree_scenes_.back(), query, begin, end); },
+        .pool = &threads_,
+        .rates = {}};
+    Tracing embree_packets{
+        .prepare = [&] { packets.set(set.rays); },
+        .trace = [&](std::size_t begin,
+                     std::size_t end) { packets.trace(embree_scenes_.back(), packet_query, begin, end); },
+        .pool = &threads_,
+        .rates = {}};
+    all.push_back(&embree);
+    if (set.goes_together) all.push_back(&embree_packets);
+#endif
+    for (int i = 0; i < options_.runs; ++i)
+      for (Tracing* tracing : all) measure(*tracing, count);
+
+    table_.add(set.name, "million/s", median(calls.rates) / 1e6);
+    if (on_one_thread)
+      table_.add(set.name, "of linear in threads", median_ratio(calls, *on_one_thread) / options_.threads);
+#if defined(BASICRT_WITH_EMBREE)
+    table_.add(set.name, "over Embree", median_ratio(calls, embree));
+    if (set.goes_together) table_.add(set.name, "over its packets", median_ratio(calls, embree_packets));
+    table_.add(set.name, "one ray at a time, over Embree", median_ratio(alone, embree));
+    report_differences(set, [&](std::size_t i) { return rays.distance(i, query); });
+#else
+    table_.add(set.name, "one ray at a time, million/s", median(alone.rates) / 1e6);
+#endif
+  }
+
+  // Calls the tracer for `size` rays at a time.
+  std::function<void(std::size_t, std::size_t)> trace_in_calls(const RaySet& set, std::size_t size) {
+    return [this, &set, size](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; i += size) {
+        const std::size_t count = std::min(size, end - i);
+        const auto rays = std::span(set.rays).subspan(i, count);
+        if (set.is_any)
+          tracer_.occluded(rays, std::span(is_occluded_).subspan(i, count));
+        else
+          tracer_.intersect(rays, std::span(hits_).subspan(i, count));
+      }
+    };
+  }
+
+#if defined(BASICRT_WITH_EMBREE)
+  void build_embree() {
+    device_.emplace(options_.threads);
+    for (Shape& shape : scene_.shapes) {
+      Mesh& mesh = std::get<Mesh>(shape);
+      mesh.positions.reserve(mesh.positions.size() + 1);
+      embree_scenes_.emplace_back(*device_).add(mesh);
+      embree_scenes_.back().build();
+    }
+    if (scene_.instances.size() == 1 && scene_.instances[0].object_to_world == TransformD{}) return;
+    EmbreeScene top(*device_);
+    for (const TracedInstance& instance : scene_.instances)
+      top.add_instance(embree_scenes_[instance.shape], instance.object_to_world);
+    top.build();
+    embree_scenes_.push_back(std::move(top));
+  }
+
+  // Both should see the same: this says on how many rays they don't.
+  void report_differences(const RaySet& set, const std::function<float(std::size_t)>& embree_distance) const {
+    std::size_t misses = 0, distances = 0;
+    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+      const float other = embree_distance(i);
+      const bool is_hit = set.is_any ? is_occluded_[i] != 0 : hits_[i].is_hit();
+      if (is_hit != (set.is_any ? other < 0 : other < infinity))
+        ++misses;
+      else if (!set.is_any && is_hit)
+        distances += std::abs(hits_[i].t - other) > 1e-4f * other;
+    }
+    std::fprintf(stderr, "%s, %s: of %zu rays %zu hit with one and miss with the other, %zu differ in distance\n",
+                 scene_.name.c_str(), set.name.c_str(), set.rays.size(), misses, distances);
+  }
+
+  std::optional<EmbreeDevice> device_;
+  std::vector<EmbreeScene> embree_scenes_;  // the last is to be traced, the others are in it
+#endif
+
+  const Options& options_;
+  Table& table_;
+  WorkerPool one_thread_, threads_;
+  BenchmarkScene scene_;
+  Tracer tracer_;
+  std::vector<Hit> hits_;
+  std::vector<std::uint8_t> is_occluded_;
+};
+
+void run(const Options& options) {
+  const std::string kernel = options.kernel.empty() ? chosen_kernel().name : options.kernel;
+  if (find_kernel(kernel) == nullptr) throw std::runtime_error("--kernel: this machine has no '" + kernel + "'\n");
+  std::printf("%s, commit %s, compiler %s, kernel %s, %d threads, %zu rays a call, medians of %d runs, ",
+              machine().c_str(), commit().c_str(), __VERSION__, kernel.c_str(), options.threads, options.call,
+              options.runs);
+#if defined(BASICRT_WITH_EMBREE)
+  std::printf("beside Embree %s robust\n\n", RTC_VERSION_STRING);
+#else
+  std::printf("without Embree, which was not found\n\n");
+#endif
+  Table table;
+  for (const SceneMaker& maker : scene_makers(options.is_small))
+    if (is_wanted(options.scenes, maker.name)) SceneBenchmark(maker.make(), options, table).run();
+  for (const std::string& file : options.files) SceneBenchmark(read_obj_scene(file), options, table).run();
+  table.print();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool is_small = false;
-  int runs = 5;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string_view option = argv[i];
-    if (option == "--size") is_small = argv[i + 1] == std::string_view("small");
-    if (option == "--runs") runs = std::max(1, std::atoi(argv[i + 1]));
+  try {
+    run(parse(argc, argv));
+  } catch (const std::exception& error) {
+    std::fputs(error.what(), stderr);
+    return 2;
   }
-  std::printf("%s, compiler %s, one thread, medians of %d runs\n\n", machine().c_str(), __VERSION__, runs);
-  std::printf(
-      "| mesh | thousand triangles | build, median split (s) | build, SAH (s) | primary (M/s) | shadow (M/s) "
-      "| diffuse (M/s) |\n|---|---|---|---|---|---|---|\n");
-  const int side = is_small ? 128 : 512;
-  run("Cornell box with a sphere", make_cornell(is_small ? 32 : 380), runs, side);
-  run("terrain", make_terrain(is_small ? 64 : 707), runs, side);
-  run("soup", make_soup(is_small ? 10000 : 1000000), runs, side);
   return 0;
 }
