@@ -232,6 +232,9 @@ TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone) {
         tracer->intersect(std::span(&rays[i], 1), std::span(&alone, 1));
         ASSERT_TRUE(test::is_identical(alone, together[i])) << "picture " << picture << ", ray " << i;
         ASSERT_EQ(occluded[i], alone.is_hit()) << "picture " << picture << ", ray " << i;
+        std::uint8_t occluded_alone = 2;
+        tracer->occluded(std::span(&rays[i], 1), std::span(&occluded_alone, 1));
+        ASSERT_EQ(occluded_alone, alone.is_hit()) << "picture " << picture << ", ray " << i;
         hit_count += alone.is_hit();
       }
     }

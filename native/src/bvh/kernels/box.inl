@@ -4,10 +4,9 @@
 constexpr float slab_scale = 1 - 0x1p-19f;
 
 // A child is met where entry <= exit.
-inline void intersect_children(const TreeNode& node, const Space& space, float t_begin, float t_max, Float8& entry,
-                               Float8& exit) {
+inline void intersect_children(const TreeNode& node, const BoxSpace& space, float t_max, Float8& entry, Float8& exit) {
   const float* planes = &node.bounds[0][0][0];
-  entry = Float8::all(t_begin);
+  entry = Float8::all(space.begin);
   exit = Float8::all(t_max);
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t entry_plane = space.octant.entry_planes[axis], exit_plane = entry_plane ^ 8;

@@ -44,39 +44,47 @@ struct Float8 {
 // What packets have in each lane a ray of.
 using Pack = Float8;
 
-// Row m: the numbers of the set bits of m in front, which moves the lanes of a mask together.
+// Row m: the numbers of the set bits of m in front, four bits each, which moves the lanes of a mask together. In this form all rows take a kilobyte
+// of the nearest cache.
 struct CompressTable {
-  alignas(64) std::uint32_t rows[256][8] = {};
+  alignas(64) std::uint32_t rows[256] = {};
 
   constexpr CompressTable() {
     for (unsigned mask = 0; mask < 256; ++mask) {
       unsigned count = 0;
       for (unsigned bit = 0; bit < 8; ++bit)
-        if (mask >> bit & 1) rows[mask][count++] = bit;
+        if (mask >> bit & 1) rows[mask] |= bit << 4 * count++;
     }
   }
 };
 constexpr CompressTable compress_table;
 
-inline std::uint32_t push_compressed(unsigned mask, __m256i references, __m256 entries, TreeReference* to_references,
-                                     float* to_entries) {
-  const __m256i row = _mm256_load_si256(reinterpret_cast<const __m256i*>(compress_table.rows[mask]));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to_references), _mm256_permutevar8x32_epi32(references, row));
-  _mm256_storeu_ps(to_entries, _mm256_permutevar8x32_ps(entries, row));
-  return static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
+// Permutations use the lowest three bits of each number.
+inline __m256i compressing(unsigned mask) {
+  const __m256i places = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28);
+  return _mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(compress_table.rows[mask])), places);
 }
+
+inline unsigned children_within(const Float8& entry, const Float8& exit) { return (entry <= exit).bits(); }
 
 inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
                                    const Float8& exit, TreeReference* references, float* entries) {
-  // Permutations use the lowest three bits of each number.
   const __m256i order = _mm256_srl_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.order)),
                                          _mm_cvtsi32_si128(static_cast<int>(octant_shift)));
-  const __m256i children =
-      _mm256_permutevar8x32_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.children)), order);
-  const __m256 entry_distances = _mm256_permutevar8x32_ps(entry.lanes, order);
-  const __m256 exit_distances = _mm256_permutevar8x32_ps(exit.lanes, order);
-  const int hits = _mm256_movemask_ps(_mm256_cmp_ps(entry_distances, exit_distances, _CMP_LE_OQ));
-  return push_compressed(static_cast<unsigned>(hits), children, entry_distances, references, entries);
+  const unsigned mask = Mask8{_mm256_permutevar8x32_ps((entry <= exit).lanes, order)}.bits();
+  const __m256i pushed = _mm256_permutevar8x32_epi32(order, compressing(mask));
+  const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(references), _mm256_permutevar8x32_epi32(children, pushed));
+  _mm256_storeu_ps(entries, _mm256_permutevar8x32_ps(entry.lanes, pushed));
+  return static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
+}
+
+inline std::uint32_t push_any_children(const TreeNode& node, const Float8& entry, const Float8& exit,
+                                       TreeReference* references) {
+  const unsigned mask = children_within(entry, exit);
+  const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(references), _mm256_permutevar8x32_epi32(children, compressing(mask)));
+  return static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
 }
 
 inline std::uint32_t keep_within(TreeReference* references, float* entries, std::uint32_t count, float t_max) {
@@ -86,8 +94,11 @@ inline std::uint32_t keep_within(TreeReference* references, float* entries, std:
     const __m256 distances = _mm256_loadu_ps(entries + i);
     const unsigned is_there = count - i >= 8 ? 255u : (1u << (count - i)) - 1;
     const int is_near = _mm256_movemask_ps(_mm256_cmp_ps(distances, _mm256_set1_ps(t_max), _CMP_LE_OQ));
-    kept +=
-        push_compressed(static_cast<unsigned>(is_near) & is_there, some, distances, references + kept, entries + kept);
+    const unsigned mask = static_cast<unsigned>(is_near) & is_there;
+    const __m256i row = compressing(mask);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(references + kept), _mm256_permutevar8x32_epi32(some, row));
+    _mm256_storeu_ps(entries + kept, _mm256_permutevar8x32_ps(distances, row));
+    kept += static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
   }
   return kept;
 }

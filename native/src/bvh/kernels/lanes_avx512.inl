@@ -73,6 +73,18 @@ inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_sh
                          references, entries);
 }
 
+inline unsigned children_within(const Float8& entry, const Float8& exit) {
+  return _mm256_cmp_ps_mask(entry.lanes, exit.lanes, _CMP_LE_OQ);
+}
+
+inline std::uint32_t push_any_children(const TreeNode& node, const Float8& entry, const Float8& exit,
+                                       TreeReference* references) {
+  const auto mask = static_cast<__mmask8>(children_within(entry, exit));
+  const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(references), _mm256_maskz_compress_epi32(mask, children));
+  return static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
+}
+
 inline std::uint32_t keep_within(TreeReference* references, float* entries, std::uint32_t count, float t_max) {
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < count; i += 8) {

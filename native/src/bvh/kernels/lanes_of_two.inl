@@ -35,6 +35,17 @@ inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_sh
   return count;
 }
 
+inline std::uint32_t push_any_children(const TreeNode& node, const Float8& entry, const Float8& exit,
+                                       TreeReference* references) {
+  const unsigned hits = children_within(entry, exit);
+  std::uint32_t count = 0;
+  for (unsigned child = 0; child < 8; ++child) {
+    references[count] = node.children[child];
+    count += hits >> child & 1;
+  }
+  return count;
+}
+
 inline std::uint32_t keep_within(TreeReference* references, float* entries, std::uint32_t count, float t_max) {
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < count; ++i) {

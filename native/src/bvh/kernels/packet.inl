@@ -21,9 +21,9 @@ inline Pack pack_of_bits(std::uint32_t bits) { return Pack::all(__builtin_bit_ca
 struct alignas(64) PacketSpace {
   Pack entry_origin[3], exit_origin[3], inverse_direction[3];
   Pack begin;  // of what is of interest; among triangles the beginning of the near range
-  Space::Octant octant;
+  BoxSpace::Octant octant;
   // For triangles:
-  Space::Axes axes;
+  TriangleSpace::Axes axes;
   Pack origin[3], shear[3];
   Pack near_end;
   Pack skipped_primitive;  // as bits
@@ -256,11 +256,10 @@ class PacketWalk {
   [[gnu::noinline]] void test_alone(const PacketSpace& packet_space, const TriangleBlock& block, unsigned lane,
                                     unsigned ray) {
     store();
-    Space space;
-    NearRange near;
-    if (!enter_instance(space, near, scene_, packet_space.instance, packet_.rays[ray])) return;
-    const TriangleHits hits =
-        intersect_block(block, space, scene_, packet_space.instance, packet_.rays[ray], near, t_.lanes[ray]);
+    BoxSpace boxes;
+    TriangleSpace triangles;
+    if (!enter_instance(boxes, triangles, scene_, packet_space.instance, packet_.rays[ray])) return;
+    const TriangleHits hits = intersect_block(block, triangles, boxes.begin, t_.lanes[ray], scene_, packet_.rays[ray]);
     if (!(hits.is_hit.bits() >> lane & 1)) return;
     alignas(16) float t[4], u[4], v[4];
     hits.t.store(t);

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ray made ready for the boxes and triangles of one space: the world, or that of an instance.
 
-struct Space {
-  // For boxes (see geometry/aabb.h, which says why this loses no hit).
+// For boxes (see geometry/aabb.h, which says why this loses no hit).
+struct BoxSpace {
   float entry_origin[3], exit_origin[3], inverse_direction[3];
   // Where in TreeNode::bounds are the planes that the ray enters through, in floats (those that it leaves through have bit 3 flipped), and
   // where in TreeNode::order is its order.
   struct Octant {
     std::uint8_t entry_planes[3], order_shift;
   } octant;
-  // For triangles (see triangle.inl): axes are permuted so that the last is the direction's largest.
+  float begin;  // of what is of interest; in an instance that of the near range
+};
+
+// For the triangles of an instance (see triangle.inl): axes are permuted so that the last is the direction's largest.
+struct TriangleSpace {
   float origin[3], shear[3];
   struct Axes {
     std::uint8_t offsets[4];  // where in a corner of a block their coordinates are, in floats; the fourth is unused
   } axes;
-  std::uint32_t skipped_primitive;
+  float near_end;  // from BoxSpace::begin to here rounding decides whether a hit counts
+  std::uint32_t instance, skipped_primitive;
 };
 
 constexpr struct OctantTable {
-  Space::Octant rows[8] = {};
+  BoxSpace::Octant rows[8] = {};
 
   constexpr OctantTable() {
     for (unsigned octant = 0; octant < 8; ++octant) {
@@ -30,7 +35,7 @@ constexpr struct OctantTable {
 } octant_table;
 
 // Only the first three lanes count.
-inline void prepare_boxes(Space& space, Float4 origin, Float4 direction) {
+inline void prepare_boxes(BoxSpace& space, Float4 origin, Float4 direction) {
   const Float4 smallest = Float4::all(__FLT_MIN__), largest = Float4::all(__FLT_MAX__), zero = Float4::all(0);
   const Mask4 is_direction_usable = (smallest <= abs(direction)) | (direction == zero);
   const Mask4 is_usable = is_direction_usable & (abs(direction) <= largest) & (abs(origin) <= largest);
@@ -52,13 +57,13 @@ inline bool is_usable_for_triangles(Float4 origin, Float4 direction) {
 }
 
 // Axes keep their handedness, so that all triangles of an instance are seen from the same side.
-constexpr Space::Axes axes_by_last[3] = {{{4, 8, 0, 0}}, {{8, 0, 4, 0}}, {{0, 4, 8, 0}}};
+constexpr TriangleSpace::Axes axes_by_last[3] = {{{4, 8, 0, 0}}, {{8, 0, 4, 0}}, {{0, 4, 8, 0}}};
 
-inline void prepare_triangles(Space& space, const float* origin, const float* direction) {
+inline void prepare_triangles(TriangleSpace& space, const float* origin, const float* direction) {
   const float x = __builtin_fabsf(direction[0]), y = __builtin_fabsf(direction[1]), z = __builtin_fabsf(direction[2]);
   // In numbers: a branch would be guessed wrong.
   const unsigned is_last_z = (z > x) & (z > y), last = 2 * is_last_z + (1 - is_last_z) * (y > x);
-  const Space::Axes axes = axes_by_last[last];
+  const TriangleSpace::Axes axes = axes_by_last[last];
   const float scale = 1 / direction[last];
   space.axes = axes;
   for (int i = 0; i < 3; ++i) {
@@ -104,17 +109,12 @@ inline void transform(LocalRay& local, const KernelInstance& instance, const Ker
   }
 }
 
-// Around t_min, where rounding decides whether a hit counts.
-struct NearRange {
-  float begin, end;
-};
-
 // Distances are wrong by a few roundings of the coordinates, more where the ray grazes the triangle. Within this part of the coordinates from t_min
 // they are solved in double precision.
 constexpr float near_reach = 0x1p-18f;
 
-// Prepares the space of an instance. False where its triangles need double precision.
-inline bool enter_instance(Space& space, NearRange& near, const KernelScene& scene, std::uint32_t index,
+// Prepares the spaces of an instance. False where its triangles need double precision.
+inline bool enter_instance(BoxSpace& boxes, TriangleSpace& triangles, const KernelScene& scene, std::uint32_t index,
                            const KernelRay& ray) {
   const KernelInstance& instance = scene.instances[index];
   const float *origin = ray.origin, *direction = ray.direction;
@@ -125,12 +125,14 @@ inline bool enter_instance(Space& space, NearRange& near, const KernelScene& sce
     direction = local.direction;
   }
   if (!is_usable_for_triangles(Float4::load(origin), Float4::load(direction))) return false;
-  prepare_boxes(space, Float4::load(origin), Float4::load(direction));
-  prepare_triangles(space, origin, direction);
+  prepare_boxes(boxes, Float4::load(origin), Float4::load(direction));
+  prepare_triangles(triangles, origin, direction);
   const float distance = __builtin_fabsf(origin[0]) + __builtin_fabsf(origin[1]) + __builtin_fabsf(origin[2]);
-  const float margin = (instance.reach + distance) * __builtin_fabsf(space.shear[2]) * near_reach;
+  const float margin = (instance.reach + distance) * __builtin_fabsf(triangles.shear[2]) * near_reach;
   const float t_min = ray.t_min < 0 ? 0 : ray.t_min;
-  near = {t_min - margin, t_min + margin};
-  space.skipped_primitive = skipped_primitive(scene, index, ray);
+  boxes.begin = t_min - margin;
+  triangles.near_end = t_min + margin;
+  triangles.instance = index;
+  triangles.skipped_primitive = skipped_primitive(scene, index, ray);
   return true;
 }

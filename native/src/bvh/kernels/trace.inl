@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a kernel does with the rays of one call: those that go together walk in packets, the others in the stream.
+// What a kernel does with the rays of one call: of few each walks alone; of many those that go together walk in packets, the others in the
+// stream.
 
 struct Scratch {
   StreamScratch stream;
@@ -26,8 +27,20 @@ inline bool go_together(const char* rays) {
   return (is_same_side & 7) == 7 && spread[0] + spread[1] + spread[2] < 0.25f * largest;
 }
 
+// For fewer the stream is slower: its turns would be mostly empty.
+constexpr std::size_t smallest_stream = 6;
+
+template <class Query>
+void trace_each_alone(const Steps<Query>& steps, std::size_t count, StreamScratch& scratch) {
+  Slot& slot = scratch.slots[0];
+  slot.stack = &scratch.stacks[0];
+  for (std::size_t i = 0; i < count; ++i) walk_alone(steps, i, slot);
+}
+
 template <class Query>
 void trace(const KernelScene& scene, const char* rays, std::size_t count, Query query, Scratch& scratch) {
+  const Steps<Query> steps{scene, rays, query};
+  if (count < smallest_stream) return trace_each_alone(steps, count, scratch.stream);
   constexpr std::size_t chunk_size = 4096;
   std::uint32_t alone[chunk_size];
   for (std::size_t first = 0; first < count; first += chunk_size) {
@@ -46,7 +59,7 @@ void trace(const KernelScene& scene, const char* rays, std::size_t count, Query 
       }
       for (std::size_t j = 0; j < size; ++j) alone[alone_count++] = static_cast<std::uint32_t>(i + j);
     }
-    Stream(scene, rays, alone, alone_count, query, scratch.stream).run();
+    Stream(steps, alone, alone_count, scratch.stream).run();
   }
 }
 

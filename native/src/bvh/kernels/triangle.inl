@@ -12,7 +12,7 @@ struct ShearedCorners {
   Float4 x[3], y[3], z[3];
 };
 
-inline ShearedCorners shear(const TriangleBlock& block, const Space& space) {
+inline ShearedCorners shear(const TriangleBlock& block, const TriangleSpace& space) {
   ShearedCorners corners;
   for (int i = 0; i < 3; ++i) {
     const float* corner = &block.corners[i][0][0];
@@ -43,7 +43,7 @@ struct InsideHits {
   Mask4 is_inside;
 };
 
-inline InsideHits inside_hits(const ShearedCorners& corners, const EdgeWeights& weights, const Space& space) {
+inline InsideHits inside_hits(const ShearedCorners& corners, const EdgeWeights& weights, const TriangleSpace& space) {
   const auto& w = weights.w;
   const Float4 zero = Float4::all(0);
   const Float4 least = min(min(w[0], w[1]), w[2]), most = max(max(w[0], w[1]), w[2]);
@@ -61,7 +61,7 @@ struct LanesInMemory {
 };
 
 // The same where single precision can't tell: products of two floats are exact in double precision.
-[[gnu::noinline]] inline void find_inside_hits_in_double(const TriangleBlock& block, const Space& space,
+[[gnu::noinline]] inline void find_inside_hits_in_double(const TriangleBlock& block, const TriangleSpace& space,
                                                          LanesInMemory& result) {
   const ShearedCorners corners = shear(block, space);
   alignas(16) float x[3][4], y[3][4], z[3][4];
@@ -86,8 +86,8 @@ struct LanesInMemory {
 }
 
 // Solves the lanes that are near in double precision, by the ray as it was given.
-[[gnu::noinline]] inline void confirm_near(unsigned near, const TriangleBlock& block, const KernelScene& scene,
-                                           std::uint32_t instance, const KernelRay& ray, float t_max,
+[[gnu::noinline]] inline void confirm_near(unsigned near, const TriangleBlock& block, const TriangleSpace& space,
+                                           const KernelScene& scene, const KernelRay& ray, float t_max,
                                            LanesInMemory& result) {
   for (unsigned lane = 0; lane < 4; ++lane) {
     result.is_hit[lane] = 1;
@@ -95,14 +95,14 @@ struct LanesInMemory {
     float corners[3][3];
     for (int i = 0; i < 3; ++i)
       for (int axis = 0; axis < 3; ++axis) corners[i][axis] = block.corners[i][axis][lane];
-    const double distance = scene.plane_distance(scene.instances[instance], ray, corners);
+    const double distance = scene.plane_distance(scene.instances[space.instance], ray, corners);
     result.t[lane] = static_cast<float>(distance);
     result.is_hit[lane] = distance >= ray.t_min && distance >= 0 && distance <= t_max;
   }
 }
 
-inline TriangleHits intersect_block(const TriangleBlock& block, const Space& space, const KernelScene& scene,
-                                    std::uint32_t instance, const KernelRay& ray, NearRange near, float t_max) {
+inline TriangleHits intersect_block(const TriangleBlock& block, const TriangleSpace& space, float begin, float t_max,
+                                    const KernelScene& scene, const KernelRay& ray) {
   const ShearedCorners corners = shear(block, space);
   const EdgeWeights weights = edge_weights(corners);
   InsideHits inside = inside_hits(corners, weights, space);
@@ -119,13 +119,13 @@ inline TriangleHits intersect_block(const TriangleBlock& block, const Space& spa
   }
 
   // A NaN is no hit.
-  Mask4 is_hit = without(inside.is_inside & (inside.t <= Float4::all(t_max)) & (Float4::all(near.begin) <= inside.t),
+  Mask4 is_hit = without(inside.is_inside & (inside.t <= Float4::all(t_max)) & (Float4::all(begin) <= inside.t),
                          equal(block.primitives, space.skipped_primitive));
-  const unsigned is_near = (is_hit & (inside.t <= Float4::all(near.end))).bits();
+  const unsigned is_near = (is_hit & (inside.t <= Float4::all(space.near_end))).bits();
   if (__builtin_expect(is_near != 0, 0)) {
     LanesInMemory solved;
     inside.t.store(solved.t);
-    confirm_near(is_near, block, scene, instance, ray, t_max, solved);
+    confirm_near(is_near, block, space, scene, ray, t_max, solved);
     inside.t = Float4::load(solved.t);
     is_hit = is_hit & (Float4::load(solved.is_hit) == Float4::all(1));
   }

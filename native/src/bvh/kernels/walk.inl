@@ -4,6 +4,8 @@
 #include "bvh/kernels/space.inl"
 #include "bvh/kernels/box.inl"
 #include "bvh/kernels/triangle.inl"
+#include "bvh/kernels/slot.inl"
+#include "bvh/kernels/single.inl"
 #include "bvh/kernels/stream.inl"
 #include "bvh/kernels/packet.inl"
 #include "bvh/kernels/trace.inl"
