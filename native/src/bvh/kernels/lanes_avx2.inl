@@ -67,16 +67,32 @@ inline __m256i compressing(unsigned mask) {
 
 inline unsigned children_within(const Float8& entry, const Float8& exit) { return (entry <= exit).bits(); }
 
-inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
-                                   const Float8& exit, TreeReference* references, float* entries) {
+// The numbers of the children that are met, farthest first, of which only the lowest three bits count.
+struct MetChildren {
+  __m256i numbers;
+  std::uint32_t count;
+};
+inline MetChildren met_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                const Float8& exit) {
   const __m256i order = _mm256_srl_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.order)),
                                          _mm_cvtsi32_si128(static_cast<int>(octant_shift)));
   const unsigned mask = Mask8{_mm256_permutevar8x32_ps((entry <= exit).lanes, order)}.bits();
-  const __m256i pushed = _mm256_permutevar8x32_epi32(order, compressing(mask));
+  return {_mm256_permutevar8x32_epi32(order, compressing(mask)), static_cast<std::uint32_t>(_mm_popcnt_u32(mask))};
+}
+inline std::uint32_t list_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                   const Float8& exit, std::uint32_t (&numbers)[8]) {
+  const MetChildren met = met_children(node, octant_shift, entry, exit);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(numbers), met.numbers);
+  return met.count;
+}
+
+inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                   const Float8& exit, TreeReference* references, float* entries) {
+  const MetChildren met = met_children(node, octant_shift, entry, exit);
   const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(references), _mm256_permutevar8x32_epi32(children, pushed));
-  _mm256_storeu_ps(entries, _mm256_permutevar8x32_ps(entry.lanes, pushed));
-  return static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(references), _mm256_permutevar8x32_epi32(children, met.numbers));
+  _mm256_storeu_ps(entries, _mm256_permutevar8x32_ps(entry.lanes, met.numbers));
+  return met.count;
 }
 
 inline std::uint32_t push_any_children(const TreeNode& node, const Float8& entry, const Float8& exit,

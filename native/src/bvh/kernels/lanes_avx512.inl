@@ -73,6 +73,17 @@ inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_sh
                          references, entries);
 }
 
+// The numbers of the children that are met, farthest first, of which only the lowest three bits count.
+inline std::uint32_t list_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                   const Float8& exit, std::uint32_t (&numbers)[8]) {
+  const __m256i order = _mm256_srl_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.order)),
+                                         _mm_cvtsi32_si128(static_cast<int>(octant_shift)));
+  const __mmask8 mask = _mm256_cmp_ps_mask(_mm256_permutevar8x32_ps(entry.lanes, order),
+                                           _mm256_permutevar8x32_ps(exit.lanes, order), _CMP_LE_OQ);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(numbers), _mm256_maskz_compress_epi32(mask, order));
+  return static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
+}
+
 inline unsigned children_within(const Float8& entry, const Float8& exit) {
   return _mm256_cmp_ps_mask(entry.lanes, exit.lanes, _CMP_LE_OQ);
 }

@@ -19,6 +19,18 @@ inline unsigned children_within(const Float8& entry, const Float8& exit) {
   return (entry.halves[0] <= exit.halves[0]).bits() | (entry.halves[1] <= exit.halves[1]).bits() << 4;
 }
 
+// The numbers of the children that are met, farthest first, of which only the lowest three bits count.
+inline std::uint32_t list_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                   const Float8& exit, std::uint32_t (&numbers)[8]) {
+  const unsigned hits = children_within(entry, exit);
+  std::uint32_t count = 0;
+  for (const std::uint32_t order : node.order) {
+    numbers[count] = order >> octant_shift;
+    count += hits >> (numbers[count] & 7) & 1;
+  }
+  return count;
+}
+
 inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
                                    const Float8& exit, TreeReference* references, float* entries) {
   const unsigned hits = children_within(entry, exit);

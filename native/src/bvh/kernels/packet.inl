@@ -21,14 +21,18 @@ inline Pack pack_of_bits(std::uint32_t bits) { return Pack::all(__builtin_bit_ca
 struct alignas(64) PacketSpace {
   Pack entry_origin[3], exit_origin[3], inverse_direction[3];
   Pack begin;  // of what is of interest; among triangles the beginning of the near range
+  // What bounds these numbers of all rays, for boxes that none of them meets.
+  struct Bounds {
+    float entry_origin[3], exit_origin[3], least_inverse[3], most_inverse[3];
+    float begin;
+  } bounds;
   BoxSpace::Octant octant;
   // For triangles:
   TriangleSpace::Axes axes;
   Pack origin[3], shear[3];
   Pack near_end;
   Pack skipped_primitive;  // as bits
-  const TreeNode* nodes;
-  const TriangleBlock* blocks;
+  const char* items[2];    // the tree's nodes and blocks
   std::uint32_t instance;
 };
 
@@ -53,9 +57,56 @@ inline bool have_same_sign(Pack values) {
   return (signs == 0) | (signs == all_lanes);
 }
 
+struct Range {
+  float least, most;
+};
+inline Range range_of(Pack values) {
+  PackFloats numbers;
+  values.store(numbers.lanes);
+  Range range{numbers.lanes[0], numbers.lanes[0]};
+  for (unsigned lane = 1; lane < packet_size; ++lane) {
+    const float number = numbers.lanes[lane];
+    range.least = number < range.least ? number : range.least;
+    range.most = number > range.most ? number : range.most;
+  }
+  return range;
+}
+
+inline void set_bounds(PacketSpace& space) {
+  auto& bounds = space.bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Range entry = range_of(space.entry_origin[axis]), exit = range_of(space.exit_origin[axis]);
+    const Range inverse = range_of(space.inverse_direction[axis]);
+    const bool goes_down = inverse.most < 0;
+    bounds.entry_origin[axis] = goes_down ? entry.least : entry.most;
+    bounds.exit_origin[axis] = goes_down ? exit.most : exit.least;
+    bounds.least_inverse[axis] = inverse.least;
+    bounds.most_inverse[axis] = inverse.most;
+  }
+  bounds.begin = range_of(space.begin).least;
+}
+
+// A child is met by no ray where entry > exit, for rounding keeps the order of numbers.
+inline void intersect_children(const TreeNode& node, const PacketSpace& space, float t_max, Float8& entry,
+                               Float8& exit) {
+  const float* planes = &node.bounds[0][0][0];
+  const auto& bounds = space.bounds;
+  entry = Float8::all(bounds.begin);
+  exit = Float8::all(t_max);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t entry_plane = space.octant.entry_planes[axis], exit_plane = entry_plane ^ 8;
+    const Float8 least = Float8::all(bounds.least_inverse[axis]), most = Float8::all(bounds.most_inverse[axis]);
+    const Float8 to_entry = Float8::load(planes + entry_plane) - Float8::all(bounds.entry_origin[axis]);
+    const Float8 to_exit = Float8::load(planes + exit_plane) - Float8::all(bounds.exit_origin[axis]);
+    entry = max(min(to_entry * least, to_entry * most), entry);
+    exit = min(max(to_exit * least, to_exit * most), exit);
+  }
+  entry = entry * Float8::all(slab_scale);
+}
+
 // As prepare_boxes() does for one ray. False where the rays' octants differ.
 inline bool prepare_packet_boxes(PacketSpace& space, const PackVectors& origins, const PackVectors& directions) {
-  const Pack smallest = Pack::all(__FLT_MIN__), largest = Pack::all(__FLT_MAX__);
+  const Pack smallest = Pack::all(__FLT_MIN__), largest = Pack::all(largest_usable);
   unsigned octant = 0;
   for (unsigned axis = 0; axis < 3; ++axis) {
     const Pack origin = origins.axes[axis].pack(), direction = directions.axes[axis].pack();
@@ -112,7 +163,8 @@ class PacketWalk {
     if (!start()) return false;
     if (scene_.root >= instance_mark) return visit_instance(scene_.root & reference_index, all_lanes, scratch_.stack);
     if (!prepare_packet_boxes(world_, scratch_.origin, scratch_.direction)) return false;
-    world_.nodes = scene_.nodes;
+    world_.items[0] = reinterpret_cast<const char*>(scene_.nodes);
+    world_.items[1] = reinterpret_cast<const char*>(scene_.instances);
     return walk(world_, scene_.root, scratch_.stack);
   }
 
@@ -151,13 +203,17 @@ class PacketWalk {
     t_min_ = max(begin, zero);
     world_.begin = t_min_;
     packet_.t = min(end, Pack::all(__FLT_MAX__));
+    t_max_ = range_of(packet_.t).most;
     packet_.u = packet_.v = zero;
     packet_.primitive = packet_.instance = pack_of_bits(~0u);
     return true;
   }
 
   // Everything below `root`. The stack from `top` on is free.
-  bool walk(const PacketSpace& space, TreeReference root, PacketItem* top) {
+  bool walk(PacketSpace& space, TreeReference root, PacketItem* top) {
+    set_bounds(space);
+    const auto* nodes = reinterpret_cast<const TreeNode*>(space.items[0]);
+    const auto* blocks = reinterpret_cast<const TriangleBlock*>(space.items[1]);
     PacketItem* const bottom = top;
     t_min_.store(top->entries.lanes);
     (top++)->reference = root;
@@ -168,9 +224,9 @@ class PacketWalk {
       if (active == 0) continue;
       if (is_going_apart(active)) return false;
       if (reference < triangles_mark) {
-        top = visit_node(space, space.nodes[reference], top);
+        top = visit_node(space, nodes[reference], top);
       } else if (reference < instance_mark) {
-        visit_block(space, space.blocks[reference & reference_index], active);
+        visit_block(space, blocks[reference & reference_index], active);
       } else if (!visit_instance(reference & reference_index, active, top)) {
         return false;
       }
@@ -187,8 +243,12 @@ class PacketWalk {
 
   PacketItem* visit_node(const PacketSpace& space, const TreeNode& node, PacketItem* top) const {
     const float* planes = &node.bounds[0][0][0];
-    for (const std::uint32_t order : node.order) {
-      const std::uint32_t child = order >> space.octant.order_shift & 7;
+    Float8 first_entry, last_exit;
+    intersect_children(node, space, t_max_, first_entry, last_exit);
+    std::uint32_t numbers[8];
+    const std::uint32_t count = list_children(node, space.octant.order_shift, first_entry, last_exit, numbers);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t child = numbers[i] & 7;
       Pack entry = space.begin, exit = packet_.t;
       for (int axis = 0; axis < 3; ++axis) {
         const std::size_t entry_plane = space.octant.entry_planes[axis], exit_plane = entry_plane ^ 8;
@@ -201,6 +261,7 @@ class PacketWalk {
       if (is_met.bits() == 0) continue;
       // A ray that doesn't meet the box never gets near enough.
       select(is_met, entry, Pack::all(__builtin_inff())).store(top->entries.lanes);
+      prefetch_item(space.items, node.children[child]);
       (top++)->reference = node.children[child];
     }
     return top;
@@ -250,6 +311,7 @@ class PacketWalk {
     packet_.v = select(mask, v, packet_.v);
     packet_.primitive = select(mask, pack_of_bits(primitive), packet_.primitive);
     packet_.instance = select(mask, pack_of_bits(instance), packet_.instance);
+    t_max_ = range_of(packet_.t).most;
   }
 
   // One ray and one triangle, as the stream tests them.
@@ -297,8 +359,8 @@ class PacketWalk {
     for (unsigned lane = 0; lane < packet_size; ++lane)
       skipped.lanes[lane] = skipped_primitive(scene_, index, packet_.rays[lane]);
     space.skipped_primitive = Pack::load(reinterpret_cast<const float*>(skipped.lanes));
-    space.nodes = instance.nodes;
-    space.blocks = instance.blocks;
+    space.items[0] = reinterpret_cast<const char*>(instance.nodes);
+    space.items[1] = reinterpret_cast<const char*>(instance.blocks);
     space.instance = index;
     return walk(space, instance.root, top);
   }
@@ -331,6 +393,7 @@ class PacketWalk {
   unsigned visit_count_ = 0, active_count_ = 0;
   Packet packet_;
   Pack t_min_;
+  float t_max_;  // of all rays
   PacketSpace world_, local_;
   PackFloats t_, u_, v_;
   PackNumbers primitives_, instances_;

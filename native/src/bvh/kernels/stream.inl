@@ -32,15 +32,6 @@ struct Queues {
   }
 };
 
-// Blocks take up three cache lines, nodes four. Inlined by force: g++ 12 drops calls of what does nothing but prefetch.
-[[gnu::always_inline]] inline void prefetch_item(const Slot& slot, TreeReference reference) {
-  static constexpr std::size_t sizes[4] = {sizeof(TreeNode), sizeof(TreeNode), sizeof(TriangleBlock), 0};
-  const std::uint32_t is_block = reference >> 31;
-  const char* item = slot.items[is_block] + (reference & reference_index) * sizes[reference >> 30];
-  for (int line = 0; line < 3; ++line) __builtin_prefetch(item + 64 * line);
-  __builtin_prefetch(item + 192 - 64 * is_block);
-}
-
 // Takes the rays of one call from start to end.
 template <class Query>
 class Stream {
@@ -69,7 +60,7 @@ class Stream {
 
   void visit_next(Slot& slot, TreeReference reference, QueueSizes& sizes) {
     *slot.top = reference;
-    prefetch_item(slot, reference);
+    prefetch_item(slot.items, reference);
     queues_.add(&slot, reference, sizes);
   }
   // `slots` may be a queue of which sizes_ says that it is empty: what is written there has been read before.
