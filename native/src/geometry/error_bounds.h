@@ -6,15 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/gamma.h"
 #include "math/transform.h"
 
 namespace basicrt {
-
-// Bounds the relative error of n roundings in a row (Higham 2002, "Accuracy and Stability of Numerical Algorithms").
-constexpr double gamma(int n) {
-  constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-  return n * unit_roundoff / (1 - n * unit_roundoff);
-}
 
 // Of each coordinate of transform.vector(p), given that each coordinate of p is off by at most `error`.
 inline Vec3d spread(const TransformD& transform, Vec3d error) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface point in object space, as each kind of geometry finds it.
+// A surface point in object space: of spheres, and the derivatives of every kind of geometry.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,10 @@ namespace basicrt {
 struct LocalPoint {
   double t;  // along the ray, solved again
   Vec3d position;
-  Vec3d error;           // bounds how far each coordinate is off
-  Vec3d normal;          // out of the front face, of any length
-  Vec3f shading_normal;  // of any length, zero where there is none
+  Vec3d error;   // bounds how far each coordinate is off
+  Vec3d normal;  // out of the front face, of any length
   Vec2f uv;
-  Vec2f barycentrics;  // as in SurfacePoint
   bool is_backfacing;
-  std::uint32_t material_slot;
 };
 
 [[nodiscard]] LocalPoint local_point_on(const Sphere& sphere, const PreciseRay& ray, const Hit& hit);

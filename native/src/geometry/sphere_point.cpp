@@ -24,16 +24,12 @@ LocalPoint local_point_on(const Sphere& sphere, const PreciseRay& ray, const Hit
   const Vec3d outward = normalize(ray.origin + ray.direction * t - center);
   const double grazing = std::abs(dot(normalize(ray.direction), outward));
   const double along_ray = gamma(16) * (length(ray.origin) + length(center) + radius) / std::max(grazing, 1e-6);
-  const Vec2f uv(sphere_uv(outward));
   return {.t = t,
           .position = center + outward * radius,
           .error = Vec3d(gamma(16) * (length(center) + radius) + along_ray),
           .normal = outward,
-          .shading_normal = Vec3f(outward),
-          .uv = uv,
-          .barycentrics = uv,
-          .is_backfacing = dot(ray.direction, outward) > 0,
-          .material_slot = 0};
+          .uv = Vec2f(sphere_uv(outward)),
+          .is_backfacing = dot(ray.direction, outward) > 0};
 }
 
 LocalDerivatives derivatives_on_sphere(const Sphere& sphere, Vec3d position) {

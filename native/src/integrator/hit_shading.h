@@ -3,6 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
 
 #include "bsdf/bsdf.h"
 #include "geometry/surface_point.h"
@@ -18,6 +21,38 @@ namespace basicrt {
   if (instance.needs_derivatives) add_derivatives(point, shape, instance.placement);
   return point;
 }
+
+// The surface points of some of a batch's hits at once, few enough to stay in the cache until they are shaded.
+class SurfacePoints {
+ public:
+  static constexpr std::size_t at_once = surface_hits_at_once;
+
+  // Before the first of a batch.
+  void begin() { first_ = end_ = 0; }
+  // Of the hits from `first` on, up to end(). Where a ray missed there is none.
+  void find(const PreparedScene& scene, std::span<const Ray> rays, std::span<const Hit> hits, std::size_t first) {
+    std::array<SurfaceHit, at_once> found;
+    std::size_t count = 0;
+    const std::size_t end = std::min(rays.size(), first + at_once);
+    for (std::size_t i = first; i < end; ++i) {
+      if (!hits[i].is_hit()) continue;
+      const PreparedScene::PreparedInstance& instance = scene.instances[hits[i].instance];
+      found[count++] = {&scene.shapes[instance.shape], &instance.placement, &rays[i], &hits[i], &points_[i - first]};
+    }
+    make_surface_points(std::span(found).first(count));
+    for (const SurfaceHit& hit : std::span(found).first(count))
+      if (scene.instances[hit.hit->instance].needs_derivatives) add_derivatives(*hit.point, *hit.shape, *hit.placement);
+    first_ = first;
+    end_ = end;
+  }
+  [[nodiscard]] std::size_t end() const { return end_; }
+  // `i` counts as in the batch.
+  [[nodiscard]] const SurfacePoint& operator[](std::size_t i) const { return points_[i - first_]; }
+
+ private:
+  std::size_t first_ = 0, end_ = 0;
+  std::array<SurfacePoint, at_once> points_;
+};
 
 [[nodiscard]] inline SurfaceShading shade_at(const PreparedScene& scene, const SurfacePoint& point, Vec3f wo) {
   return shade(scene.material_of(point), scene.textures, point, wo);

@@ -34,11 +34,13 @@ void IntersectionTest::extend() { find_hits(scene_.tracer, rays_, hits_); }
 
 void IntersectionTest::shade(std::span<PixelSample> samples, bool is_camera_ray) {
   std::size_t kept = 0;
+  points_.begin();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
+    if (i == points_.end()) points_.find(scene_, rays_, hits_, i);
     if (!hits_[i].is_hit()) continue;
     Path& path = paths_[i];
     const Ray& ray = rays_[i];
-    const SurfacePoint point = surface_point_at(scene_, ray, hits_[i]);
+    const SurfacePoint& point = points_[i];
     PixelSample& sample = samples[path.sample];
     sample.alpha = 1;
     if (is_camera_ray) record_first_hit(scene_, point, sample);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bsdf/bsdf.h"
+#include "integrator/hit_shading.h"
 #include "integrator/integrator.h"
 
 namespace basicrt {
@@ -37,6 +38,7 @@ class IntersectionTest final : public Integrator {
   std::vector<Path> paths_;
   std::vector<Ray> rays_;  // the next one of each path
   std::vector<Hit> hits_;
+  SurfacePoints points_;  // of some of the hits at a time
   std::vector<Ray> shadow_rays_;
   std::vector<ShadowTest> shadow_tests_;
   std::vector<std::uint8_t> occluded_;

@@ -60,7 +60,9 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
   shadow_rays_.clear();
   connections_.clear();
   std::size_t kept = 0;
+  points_.begin();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
+    if (i == points_.end()) points_.find(scene_, rays_, hits_, i);
     Path& path = paths_[i];
     Ray& ray = rays_[i];
     const Hit& hit = hits_[i];
@@ -71,7 +73,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
       continue;
     }
 
-    const SurfacePoint point = surface_point_at(scene_, ray, hit);
+    const SurfacePoint& point = points_[i];
     gather_lamps(path, up_to(ray, point), sample);
     if (path.is_camera_ray && !sample.has_hit) record_first_hit(scene_, point, sample);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bsdf/bsdf.h"
+#include "integrator/hit_shading.h"
 #include "integrator/integrator.h"
 
 namespace basicrt {
@@ -57,6 +58,7 @@ class PathIntegrator final : public Integrator {
   std::vector<Path> paths_;
   std::vector<Ray> rays_;  // the next one of each path
   std::vector<Hit> hits_;
+  SurfacePoints points_;  // of some of the hits at a time
   std::vector<Ray> shadow_rays_;
   std::vector<Connection> connections_;
   std::vector<std::uint8_t> occluded_;

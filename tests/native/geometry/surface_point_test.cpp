@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <optional>
 #include <random>
+#include <vector>
 
+#include "geometry/kernels/chosen_point_kernel.h"
 #include "geometry/sphere.h"
 #include "geometry/triangle.h"
 
@@ -187,6 +190,86 @@ TEST_F(SurfacePointTest, t_is_the_distance_along_the_ray) {
       const double reach = length(Vec3d(s.ray.origin)) + length(Vec3d(point.position)) + double{point.t};
       EXPECT_LT(length(along_ray - Vec3d(point.position)), 3e-7 * reach) << i << (is_sphere ? " sphere" : "");
     }
+}
+
+TEST_F(SurfacePointTest, many_hits_give_the_points_that_each_gives_alone) {
+  for (const std::size_t count : {1u, 3u, 4u, 64u, 65u, 301u}) {
+    std::vector<Situation> situations;
+    for (std::size_t i = 0; i < count; ++i) situations.push_back(random_situation(i % 5 == 4, i % 3 == 0));
+    std::vector<SurfacePoint> points(count);
+    std::vector<SurfaceHit> hits;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Situation& s = situations[i];
+      points[i].derivatives.emplace();  // what was there before doesn't stay
+      hits.push_back({&s.shape, &s.placement, &s.ray, &s.hit, &points[i]});
+    }
+    make_surface_points(hits);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Situation& s = situations[i];
+      const SurfacePoint alone = make_surface_point(s.shape, s.placement, s.ray, s.hit);
+      EXPECT_EQ(points[i].position, alone.position);
+      EXPECT_EQ(points[i].position_error, alone.position_error);
+      EXPECT_EQ(points[i].geometric_normal, alone.geometric_normal);
+      EXPECT_EQ(points[i].shading_normal, alone.shading_normal);
+      EXPECT_EQ(points[i].uv, alone.uv);
+      EXPECT_EQ(points[i].barycentrics, alone.barycentrics);
+      EXPECT_EQ(points[i].t, alone.t);
+      EXPECT_EQ(points[i].primitive, alone.primitive);
+      EXPECT_EQ(points[i].instance, 3);
+      EXPECT_EQ(points[i].is_backfacing, alone.is_backfacing);
+      EXPECT_FALSE(points[i].derivatives.has_value());
+    }
+  }
+}
+
+TEST_F(SurfacePointTest, every_kernel_solves_hits_to_the_same_bits) {
+  const PointKernel *avx2 = find_point_kernel("avx2"), *plain = find_point_kernel("plain");
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(find_point_kernel("no such thing"), nullptr);
+  if (!avx2) GTEST_SKIP() << "this machine has one kernel only";
+  for (const std::size_t count : {1u, 2u, 5u, 64u}) {
+    for (int i = 0; i < 200; ++i) {
+      std::vector<Situation> situations;
+      for (std::size_t j = 0; j < count; ++j) situations.push_back(random_situation(false, true));
+      // Every fourth is in the plane of its triangle.
+      if (i % 4 == 0)
+        for (Situation& s : situations)
+          s.ray.direction = Transform(s.placement.object_to_world)
+                                .vector(std::get<Mesh>(s.shape).positions[1] - std::get<Mesh>(s.shape).positions[0]);
+      std::vector<PointRequest> requests;
+      for (const Situation& s : situations) {
+        const Mesh& mesh = std::get<Mesh>(s.shape);
+        requests.push_back({.corners = {&mesh.positions[0].x, &mesh.positions[1].x, &mesh.positions[2].x},
+                            .corner_normals = &mesh.corner_normals[0].x,
+                            .ray = &s.ray.origin.x,
+                            .to_object = s.placement.world_to_object.rows[0].data(),
+                            .to_world = s.placement.object_to_world.rows[0].data(),
+                            .t = s.hit.t,
+                            .u = s.hit.u,
+                            .v = s.hit.v});
+      }
+      for (const bool is_translation : {false, true})
+        for (const bool has_normals : {false, true}) {
+          std::vector<PointResult> first(count), second(count);
+          avx2->solve({is_translation, has_normals}, requests.data(), first.data(), count);
+          plain->solve({is_translation, has_normals}, requests.data(), second.data(), count);
+          EXPECT_EQ(std::memcmp(first.data(), second.data(), count * sizeof(PointResult)), 0) << count << " " << i;
+        }
+    }
+  }
+}
+
+// Where the line of the ray doesn't say where it meets the triangle, the tracer's answer holds.
+TEST_F(SurfacePointTest, a_ray_in_the_plane_of_the_triangle_keeps_the_hit) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  const Ray ray{.origin = {-1, 0.25f, 0}, .direction = {1, 0, 0}};
+  const SurfacePoint point = make_surface_point(mesh, Placement(TransformD{}), ray,
+                                                {.t = 1.5f, .instance = 0, .primitive = 0, .u = 0.5f, .v = 0.25f});
+  EXPECT_EQ(point.position, Vec3f(0.5f, 0.25f, 0));
+  EXPECT_EQ(point.t, 1.5f);
+  EXPECT_LT(max_component(point.position_error), 1e-6f);
 }
 
 // A hit that the tracer's rounding found beside the triangle.
