@@ -10,7 +10,7 @@ from addon.report import Report
 from mathutils import Matrix
 
 import basicrt
-from support.blender import add_camera, export, new_scene
+from support.blender import add_camera, export, new_scene, place
 
 
 def frame_window(made: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
@@ -93,16 +93,64 @@ def test_follows_parents_and_constraints() -> None:
     np.testing.assert_allclose(np.array(export().camera.transform)[:3, 3], (5, 0, 1))
 
 
-def test_unsupported_lenses_are_reported() -> None:
+@pytest.mark.skipif(bpy.app.version < (4, 5, 0), reason="custom cameras came later")
+def test_cameras_that_are_shaders_are_reported() -> None:
     new_scene()
-    made = add_camera(kind="PANO")
-    made.data.dof.use_dof = True
+    add_camera(kind="CUSTOM")
     report = Report()
     assert isinstance(export(report).camera, basicrt.PerspectiveCamera)
     assert report.warnings == (
-        'camera "Camera": type PANO is not supported: drawn in perspective',
-        'camera "Camera": depth of field is not supported: everything is in focus',
+        'camera "Camera": type CUSTOM is not supported: drawn in perspective',
     )
+
+
+def test_every_panorama_of_this_blender_is_supported() -> None:
+    new_scene()
+    made = add_camera(kind="PANO")
+    report = Report()
+    for item in type(made.data).bl_rna.properties["panorama_type"].enum_items:
+        made.data.panorama_type = item.identifier
+        assert not isinstance(export(report).camera, basicrt.PerspectiveCamera), item.identifier
+    assert report.warnings == ()
+
+
+@pytest.mark.parametrize(("kind", "radius"), [("PERSP", 0.0125), ("ORTHO", 0.25), ("PANO", 0.0125)])
+def test_aperture_is_that_of_the_f_stop(kind: str, radius: float) -> None:
+    new_scene()
+    made = add_camera(kind=kind, lens=50)
+    assert export().camera.aperture_radius == 0
+    dof = made.data.dof
+    dof.use_dof, dof.aperture_fstop, dof.focus_distance = True, 2, 3.5
+    dof.aperture_blades, dof.aperture_rotation, dof.aperture_ratio = 5, 0.25, 1.5
+    exported = export().camera
+    assert exported.aperture_radius == pytest.approx(radius)
+    assert exported.aperture_blades == 5
+    lens = (exported.aperture_rotation, exported.aperture_ratio, exported.focus_distance)
+    assert lens == pytest.approx((0.25, 1.5, 3.5))
+
+
+def test_focus_object_is_in_the_plane_of_focus() -> None:
+    new_scene()
+    made = add_camera((0, 0, 5), (0.5, 0, 0), kind="PERSP")
+    target = place(None, (7, 0, 0), name="Target")
+    made.data.dof.use_dof, made.data.dof.focus_object = True, target
+    # Along the view, whatever lies to the side.
+    assert export().camera.focus_distance == pytest.approx(5 * np.cos(0.5), rel=1e-5)
+
+
+def test_focus_bone_is_in_the_plane_of_focus() -> None:
+    new_scene()
+    made = add_camera((0, 0, 5), kind="PERSP")
+    armature = bpy.data.armatures.new("Armature")
+    owner = place(armature, (0, 0, 1))
+    bpy.context.view_layer.objects.active = owner
+    bpy.ops.object.mode_set(mode="EDIT")
+    bone = armature.edit_bones.new("Bone")
+    bone.head, bone.tail = (0, 0, 2), (0, 0, 3)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    dof = made.data.dof
+    dof.use_dof, dof.focus_object, dof.focus_subtarget = True, owner, "Bone"
+    assert export().camera.focus_distance == pytest.approx(2, rel=1e-5)
 
 
 def test_border_is_the_whole_picture_unless_used() -> None:

@@ -146,3 +146,11 @@ def test_peak_memory_is_that_of_this_process() -> None:
     match = re.search(r"VmHWM:\s*(\d+) kB", status.read_text(encoding="utf-8"))
     assert match is not None
     assert compat.peak_memory_megabytes() == pytest.approx(int(match[1]) / 1024, rel=0.05)
+
+
+def test_panoramas_are_properties_of_the_camera_itself() -> None:
+    camera = bpy.data.cameras.new("Name")
+    kinds = {k.identifier for k in type(camera).bl_rna.properties["panorama_type"].enum_items}
+    assert {"EQUIRECTANGULAR", "MIRRORBALL", "FISHEYE_EQUISOLID"} <= kinds
+    assert ("CENTRAL_CYLINDRICAL" in kinds) == hasattr(camera, "central_cylindrical_radius")
+    assert hasattr(camera, "fisheye_polynomial_k4")

@@ -201,3 +201,66 @@ def test_bounces_in_a_shining_shell_add_up_to_a_geometric_series() -> None:
     settings = scene.settings
     settings.max_bounces = settings.diffuse_bounces = 512
     expect(scene, 2.0, relative=2e-3)
+
+
+def test_a_fisheye_is_transparent_black_outside_of_its_circle() -> None:
+    scene = basicrt.Scene()
+    scene.environment.radiance = (0.25, 0.5, 0.75)
+    half = math.pi / 4
+    scene.camera = basicrt.FisheyeEquidistantCamera(
+        fov=2 * half, window_min=(-half, -half), window_max=(half, half)
+    )
+    size = 64
+    settings = scene.settings
+    settings.width = settings.height = size
+    settings.samples = 16
+    with basicrt.Session(scene) as session:
+        pixels = np.zeros((size, size, 4), np.float32)
+        for tile in session.tiles():
+            if tile is not None:
+                rows, columns = slice(tile.y, tile.y + tile.height), slice(tile.x, tile.x + tile.width)
+                pixels[rows, columns] = tile["Combined"]
+        assert session.progress.fraction == 1
+    # Unseen samples count as black: a pixel on the rim is as bright as it is covered.
+    np.testing.assert_allclose(pixels[..., :3], pixels[..., 3:] * [0.25, 0.5, 0.75], atol=1e-6)
+    x, y = np.meshgrid(np.arange(size), np.arange(size))
+    corners = [np.hypot(x + i - size / 2, y + j - size / 2) for i in (0, 1) for j in (0, 1)]
+    is_inside = np.max(corners, axis=0) < size / 2
+    is_outside = np.min(corners, axis=0) > size / 2
+    assert (pixels[is_inside, 3] == 1).all()
+    assert (pixels[is_outside, 3] == 0).all()
+    # All together cover the circle.
+    assert pixels[..., 3].mean() == pytest.approx(math.pi / 4, abs=2e-3)
+
+
+def test_a_distant_point_blurs_to_the_shape_of_the_aperture() -> None:
+    """Light from a far small disc spreads over pi (r z / f)^2 at its depth z, f being the depth in focus."""
+    radius, focus, depth = 0.05, 2.0, 8.0
+    scene = basicrt.Scene()
+    ball = 0.03
+    add(scene, basicrt.Sphere((0, 0, -depth), ball), basicrt.EmissionShader((1, 1, 1)))
+    half = 0.05  # of the window, at depth 1
+    scene.camera = basicrt.PerspectiveCamera(
+        window_min=(-half, -half),
+        window_max=(half, half),
+        aperture_radius=radius,
+        focus_distance=focus,
+    )
+    size = 32
+    settings = scene.settings
+    settings.width = settings.height = size
+    settings.samples = 4096
+    picture = basicrt.render(scene)["Combined"][..., 0].astype(float)
+    blur = radius * (depth / focus - 1) / depth  # radius of the disc, in the window
+    area = (2 * half / size) ** 2
+    assert picture.sum() * area == pytest.approx(math.pi * (ball / depth) ** 2, rel=0.04)
+    center = (np.arange(size) + 0.5) / size * 2 * half - half
+    x, y = np.meshgrid(center, center)
+    r = np.hypot(x, y)
+    margin = ball / depth + half / size * 2
+    inside = r < blur - margin
+    assert picture[inside].mean() == pytest.approx((ball / depth / blur) ** 2, rel=0.04)
+    assert (picture[r > blur + margin] == 0).all()
+    # The disc is even: halves by height and by side carry the same.
+    for half_disc in (inside & (x > 0), inside & (y > 0)):
+        assert picture[half_disc].mean() == pytest.approx(picture[inside].mean(), rel=0.06)

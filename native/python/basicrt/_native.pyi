@@ -17,9 +17,15 @@ __all__: list[str] = [
     "CheckerboardTexture",
     "ConductorShader",
     "ConstantTexture",
+    "CubemapFaceCamera",
+    "CylindricalCamera",
     "DiffuseShader",
     "EmissionShader",
     "Environment",
+    "EquirectangularCamera",
+    "FisheyeEquidistantCamera",
+    "FisheyeEquisolidCamera",
+    "FisheyePolynomialCamera",
     "GlassShader",
     "GlossyShader",
     "ImageTexture",
@@ -1031,6 +1037,11 @@ class PerspectiveCamera:
     window_max: upper right corner on the plane z = -1
     clip_near: nothing nearer is seen, metres; at least 0
     clip_far: nothing farther is seen, metres; above 0
+    aperture_radius: metres; 0: everything is in focus; at least 0
+    aperture_blades: corners of the aperture; below 3 it is round; at least 0
+    aperture_rotation: of the blades, radians
+    aperture_ratio: the aperture's height over its width; above 0
+    focus_distance: what is that far is sharp, metres; above 0
     """
     def __init__(
         self,
@@ -1039,8 +1050,41 @@ class PerspectiveCamera:
         window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0),
         clip_near: float = 0.0,
         clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def aperture_blades(self) -> int:
+        """
+        corners of the aperture; below 3 it is round; at least 0
+        """
+    @aperture_blades.setter
+    def aperture_blades(self, value: int) -> None: ...
+    @property
+    def aperture_radius(self) -> float:
+        """
+        metres; 0: everything is in focus; at least 0
+        """
+    @aperture_radius.setter
+    def aperture_radius(self, value: float) -> None: ...
+    @property
+    def aperture_ratio(self) -> float:
+        """
+        the aperture's height over its width; above 0
+        """
+    @aperture_ratio.setter
+    def aperture_ratio(self, value: float) -> None: ...
+    @property
+    def aperture_rotation(self) -> float:
+        """
+        of the blades, radians
+        """
+    @aperture_rotation.setter
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
@@ -1055,6 +1099,13 @@ class PerspectiveCamera:
         """
     @clip_near.setter
     def clip_near(self, value: float) -> None: ...
+    @property
+    def focus_distance(self) -> float:
+        """
+        what is that far is sharp, metres; above 0
+        """
+    @focus_distance.setter
+    def focus_distance(self, value: float) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1090,6 +1141,11 @@ class OrthographicCamera:
     window_max: upper right corner, metres
     clip_near: nothing nearer is seen, metres; at least 0
     clip_far: nothing farther is seen, metres; above 0
+    aperture_radius: metres; 0: everything is in focus; at least 0
+    aperture_blades: corners of the aperture; below 3 it is round; at least 0
+    aperture_rotation: of the blades, radians
+    aperture_ratio: the aperture's height over its width; above 0
+    focus_distance: what is that far is sharp, metres; above 0
     """
     def __init__(
         self,
@@ -1098,8 +1154,41 @@ class OrthographicCamera:
         window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0),
         clip_near: float = 0.0,
         clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def aperture_blades(self) -> int:
+        """
+        corners of the aperture; below 3 it is round; at least 0
+        """
+    @aperture_blades.setter
+    def aperture_blades(self, value: int) -> None: ...
+    @property
+    def aperture_radius(self) -> float:
+        """
+        metres; 0: everything is in focus; at least 0
+        """
+    @aperture_radius.setter
+    def aperture_radius(self, value: float) -> None: ...
+    @property
+    def aperture_ratio(self) -> float:
+        """
+        the aperture's height over its width; above 0
+        """
+    @aperture_ratio.setter
+    def aperture_ratio(self, value: float) -> None: ...
+    @property
+    def aperture_rotation(self) -> float:
+        """
+        of the blades, radians
+        """
+    @aperture_rotation.setter
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
@@ -1114,6 +1203,13 @@ class OrthographicCamera:
         """
     @clip_near.setter
     def clip_near(self, value: float) -> None: ...
+    @property
+    def focus_distance(self) -> float:
+        """
+        what is that far is sharp, metres; above 0
+        """
+    @focus_distance.setter
+    def focus_distance(self, value: float) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1134,6 +1230,729 @@ class OrthographicCamera:
     def window_min(self) -> tuple[float, float]:
         """
         lower left corner, metres
+        """
+    @window_min.setter
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
+class EquirectangularCamera:
+    """
+    A panorama of longitude and latitude.
+
+    transform: camera to world; looks along -z, y is up
+    window_min: lowest longitude and latitude, radians
+    window_max: highest longitude and latitude, radians
+    clip_near: nothing nearer is seen, metres; at least 0
+    clip_far: nothing farther is seen, metres; above 0
+    aperture_radius: metres; 0: everything is in focus; at least 0
+    aperture_blades: corners of the aperture; below 3 it is round; at least 0
+    aperture_rotation: of the blades, radians
+    aperture_ratio: the aperture's height over its width; above 0
+    focus_distance: what is that far is sharp, metres; above 0
+    """
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            -3.1415927,
+            -1.5707964,
+        ),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            3.1415927,
+            1.5707964,
+        ),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def aperture_blades(self) -> int:
+        """
+        corners of the aperture; below 3 it is round; at least 0
+        """
+    @aperture_blades.setter
+    def aperture_blades(self, value: int) -> None: ...
+    @property
+    def aperture_radius(self) -> float:
+        """
+        metres; 0: everything is in focus; at least 0
+        """
+    @aperture_radius.setter
+    def aperture_radius(self, value: float) -> None: ...
+    @property
+    def aperture_ratio(self) -> float:
+        """
+        the aperture's height over its width; above 0
+        """
+    @aperture_ratio.setter
+    def aperture_ratio(self, value: float) -> None: ...
+    @property
+    def aperture_rotation(self) -> float:
+        """
+        of the blades, radians
+        """
+    @aperture_rotation.setter
+    def aperture_rotation(self, value: float) -> None: ...
+    @property
+    def clip_far(self) -> float:
+        """
+        nothing farther is seen, metres; above 0
+        """
+    @clip_far.setter
+    def clip_far(self, value: float) -> None: ...
+    @property
+    def clip_near(self) -> float:
+        """
+        nothing nearer is seen, metres; at least 0
+        """
+    @clip_near.setter
+    def clip_near(self, value: float) -> None: ...
+    @property
+    def focus_distance(self) -> float:
+        """
+        what is that far is sharp, metres; above 0
+        """
+    @focus_distance.setter
+    def focus_distance(self, value: float) -> None: ...
+    @property
+    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        camera to world; looks along -z, y is up
+        """
+    @transform.setter
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def window_max(self) -> tuple[float, float]:
+        """
+        highest longitude and latitude, radians
+        """
+    @window_max.setter
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+    @property
+    def window_min(self) -> tuple[float, float]:
+        """
+        lowest longitude and latitude, radians
+        """
+    @window_min.setter
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
+class FisheyeEquidistantCamera:
+    """
+    A fisheye: distances in the picture are angles from the axis.
+
+    transform: camera to world; looks along -z, y is up
+    window_min: lower left corner, radians from the axis
+    window_max: upper right corner, radians from the axis
+    clip_near: nothing nearer is seen, metres; at least 0
+    clip_far: nothing farther is seen, metres; above 0
+    aperture_radius: metres; 0: everything is in focus; at least 0
+    aperture_blades: corners of the aperture; below 3 it is round; at least 0
+    aperture_rotation: of the blades, radians
+    aperture_ratio: the aperture's height over its width; above 0
+    focus_distance: what is that far is sharp, metres; above 0
+    fov: full angle of the circle that is seen, radians; above 0
+    """
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            -1.5707964,
+            -1.5707964,
+        ),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            1.5707964,
+            1.5707964,
+        ),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        fov: float = 3.1415927,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def aperture_blades(self) -> int:
+        """
+        corners of the aperture; below 3 it is round; at least 0
+        """
+    @aperture_blades.setter
+    def aperture_blades(self, value: int) -> None: ...
+    @property
+    def aperture_radius(self) -> float:
+        """
+        metres; 0: everything is in focus; at least 0
+        """
+    @aperture_radius.setter
+    def aperture_radius(self, value: float) -> None: ...
+    @property
+    def aperture_ratio(self) -> float:
+        """
+        the aperture's height over its width; above 0
+        """
+    @aperture_ratio.setter
+    def aperture_ratio(self, value: float) -> None: ...
+    @property
+    def aperture_rotation(self) -> float:
+        """
+        of the blades, radians
+        """
+    @aperture_rotation.setter
+    def aperture_rotation(self, value: float) -> None: ...
+    @property
+    def clip_far(self) -> float:
+        """
+        nothing farther is seen, metres; above 0
+        """
+    @clip_far.setter
+    def clip_far(self, value: float) -> None: ...
+    @property
+    def clip_near(self) -> float:
+        """
+        nothing nearer is seen, metres; at least 0
+        """
+    @clip_near.setter
+    def clip_near(self, value: float) -> None: ...
+    @property
+    def focus_distance(self) -> float:
+        """
+        what is that far is sharp, metres; above 0
+        """
+    @focus_distance.setter
+    def focus_distance(self, value: float) -> None: ...
+    @property
+    def fov(self) -> float:
+        """
+        full angle of the circle that is seen, radians; above 0
+        """
+    @fov.setter
+    def fov(self, value: float) -> None: ...
+    @property
+    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        camera to world; looks along -z, y is up
+        """
+    @transform.setter
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def window_max(self) -> tuple[float, float]:
+        """
+        upper right corner, radians from the axis
+        """
+    @window_max.setter
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+    @property
+    def window_min(self) -> tuple[float, float]:
+        """
+        lower left corner, radians from the axis
+        """
+    @window_min.setter
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
+class FisheyeEquisolidCamera:
+    """
+    A fisheye: areas of the picture are solid angles. A mirror ball is one.
+
+    transform: camera to world; looks along -z, y is up
+    window_min: lower left corner, in the focal length's unit
+    window_max: upper right corner, in the focal length's unit
+    clip_near: nothing nearer is seen, metres; at least 0
+    clip_far: nothing farther is seen, metres; above 0
+    aperture_radius: metres; 0: everything is in focus; at least 0
+    aperture_blades: corners of the aperture; below 3 it is round; at least 0
+    aperture_rotation: of the blades, radians
+    aperture_ratio: the aperture's height over its width; above 0
+    focus_distance: what is that far is sharp, metres; above 0
+    fov: full angle of the circle that is seen, radians; above 0
+    focal_length: in the window's unit; above 0
+    """
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        fov: float = 3.1415927,
+        focal_length: float = 0.70710677,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def aperture_blades(self) -> int:
+        """
+        corners of the aperture; below 3 it is round; at least 0
+        """
+    @aperture_blades.setter
+    def aperture_blades(self, value: int) -> None: ...
+    @property
+    def aperture_radius(self) -> float:
+        """
+        metres; 0: everything is in focus; at least 0
+        """
+    @aperture_radius.setter
+    def aperture_radius(self, value: float) -> None: ...
+    @property
+    def aperture_ratio(self) -> float:
+        """
+        the aperture's height over its width; above 0
+        """
+    @aperture_ratio.setter
+    def aperture_ratio(self, value: float) -> None: ...
+    @property
+    def aperture_rotation(self) -> float:
+        """
+        of the blades, radians
+        """
+    @aperture_rotation.setter
+    def aperture_rotation(self, value: float) -> None: ...
+    @property
+    def clip_far(self) -> float:
+        """
+        nothing farther is seen, metres; above 0
+        """
+    @clip_far.setter
+    def clip_far(self, value: float) -> None: ...
+    @property
+    def clip_near(self) -> float:
+        """
+        nothing nearer is seen, metres; at least 0
+        """
+    @clip_near.setter
+    def clip_near(self, value: float) -> None: ...
+    @property
+    def focal_length(self) -> float:
+        """
+        in the window's unit; above 0
+        """
+    @focal_length.setter
+    def focal_length(self, value: float) -> None: ...
+    @property
+    def focus_distance(self) -> float:
+        """
+        what is that far is sharp, metres; above 0
+        """
+    @focus_distance.setter
+    def focus_distance(self, value: float) -> None: ...
+    @property
+    def fov(self) -> float:
+        """
+        full angle of the circle that is seen, radians; above 0
+        """
+    @fov.setter
+    def fov(self, value: float) -> None: ...
+    @property
+    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        camera to world; looks along -z, y is up
+        """
+    @transform.setter
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def window_max(self) -> tuple[float, float]:
+        """
+        upper right corner, in the focal length's unit
+        """
+    @window_max.setter
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+    @property
+    def window_min(self) -> tuple[float, float]:
+        """
+        lower left corner, in the focal length's unit
+        """
+    @window_min.setter
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
+class FisheyePolynomialCamera:
+    """
+    A fisheye: the angle from the axis is k0 + k1 r + k2 r^2 + k3 r^3 + k4 r^4, r the distance in the picture.
+
+    transform: camera to world; looks along -z, y is up
+    window_min: lower left corner, in the polynomial's unit
+    window_max: upper right corner, in the polynomial's unit
+    clip_near: nothing nearer is seen, metres; at least 0
+    clip_far: nothing farther is seen, metres; above 0
+    aperture_radius: metres; 0: everything is in focus; at least 0
+    aperture_blades: corners of the aperture; below 3 it is round; at least 0
+    aperture_rotation: of the blades, radians
+    aperture_ratio: the aperture's height over its width; above 0
+    focus_distance: what is that far is sharp, metres; above 0
+    fov: full angle of what is seen, radians; above 0
+    k0: of the angle's polynomial in the distance, radians
+    k1: the factor of the distance
+    k2: the factor of its square
+    k3: the factor of its third power
+    k4: the factor of its fourth power
+    """
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        fov: float = 3.1415927,
+        k0: float = 0.0,
+        k1: float = 1.0,
+        k2: float = 0.0,
+        k3: float = 0.0,
+        k4: float = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def aperture_blades(self) -> int:
+        """
+        corners of the aperture; below 3 it is round; at least 0
+        """
+    @aperture_blades.setter
+    def aperture_blades(self, value: int) -> None: ...
+    @property
+    def aperture_radius(self) -> float:
+        """
+        metres; 0: everything is in focus; at least 0
+        """
+    @aperture_radius.setter
+    def aperture_radius(self, value: float) -> None: ...
+    @property
+    def aperture_ratio(self) -> float:
+        """
+        the aperture's height over its width; above 0
+        """
+    @aperture_ratio.setter
+    def aperture_ratio(self, value: float) -> None: ...
+    @property
+    def aperture_rotation(self) -> float:
+        """
+        of the blades, radians
+        """
+    @aperture_rotation.setter
+    def aperture_rotation(self, value: float) -> None: ...
+    @property
+    def clip_far(self) -> float:
+        """
+        nothing farther is seen, metres; above 0
+        """
+    @clip_far.setter
+    def clip_far(self, value: float) -> None: ...
+    @property
+    def clip_near(self) -> float:
+        """
+        nothing nearer is seen, metres; at least 0
+        """
+    @clip_near.setter
+    def clip_near(self, value: float) -> None: ...
+    @property
+    def focus_distance(self) -> float:
+        """
+        what is that far is sharp, metres; above 0
+        """
+    @focus_distance.setter
+    def focus_distance(self, value: float) -> None: ...
+    @property
+    def fov(self) -> float:
+        """
+        full angle of what is seen, radians; above 0
+        """
+    @fov.setter
+    def fov(self, value: float) -> None: ...
+    @property
+    def k0(self) -> float:
+        """
+        of the angle's polynomial in the distance, radians
+        """
+    @k0.setter
+    def k0(self, value: float) -> None: ...
+    @property
+    def k1(self) -> float:
+        """
+        the factor of the distance
+        """
+    @k1.setter
+    def k1(self, value: float) -> None: ...
+    @property
+    def k2(self) -> float:
+        """
+        the factor of its square
+        """
+    @k2.setter
+    def k2(self, value: float) -> None: ...
+    @property
+    def k3(self) -> float:
+        """
+        the factor of its third power
+        """
+    @k3.setter
+    def k3(self, value: float) -> None: ...
+    @property
+    def k4(self) -> float:
+        """
+        the factor of its fourth power
+        """
+    @k4.setter
+    def k4(self, value: float) -> None: ...
+    @property
+    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        camera to world; looks along -z, y is up
+        """
+    @transform.setter
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def window_max(self) -> tuple[float, float]:
+        """
+        upper right corner, in the polynomial's unit
+        """
+    @window_max.setter
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+    @property
+    def window_min(self) -> tuple[float, float]:
+        """
+        lower left corner, in the polynomial's unit
+        """
+    @window_min.setter
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
+class CubemapFaceCamera:
+    """
+    A face of a cube with pixels evenly spaced in angle.
+
+    transform: camera to world; looks along -z, y is up
+    window_min: lower left corner, angles from the axis, radians
+    window_max: upper right corner, angles from the axis, radians
+    clip_near: nothing nearer is seen, metres; at least 0
+    clip_far: nothing farther is seen, metres; above 0
+    aperture_radius: metres; 0: everything is in focus; at least 0
+    aperture_blades: corners of the aperture; below 3 it is round; at least 0
+    aperture_rotation: of the blades, radians
+    aperture_ratio: the aperture's height over its width; above 0
+    focus_distance: what is that far is sharp, metres; above 0
+    """
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            -0.7853982,
+            -0.7853982,
+        ),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            0.7853982,
+            0.7853982,
+        ),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def aperture_blades(self) -> int:
+        """
+        corners of the aperture; below 3 it is round; at least 0
+        """
+    @aperture_blades.setter
+    def aperture_blades(self, value: int) -> None: ...
+    @property
+    def aperture_radius(self) -> float:
+        """
+        metres; 0: everything is in focus; at least 0
+        """
+    @aperture_radius.setter
+    def aperture_radius(self, value: float) -> None: ...
+    @property
+    def aperture_ratio(self) -> float:
+        """
+        the aperture's height over its width; above 0
+        """
+    @aperture_ratio.setter
+    def aperture_ratio(self, value: float) -> None: ...
+    @property
+    def aperture_rotation(self) -> float:
+        """
+        of the blades, radians
+        """
+    @aperture_rotation.setter
+    def aperture_rotation(self, value: float) -> None: ...
+    @property
+    def clip_far(self) -> float:
+        """
+        nothing farther is seen, metres; above 0
+        """
+    @clip_far.setter
+    def clip_far(self, value: float) -> None: ...
+    @property
+    def clip_near(self) -> float:
+        """
+        nothing nearer is seen, metres; at least 0
+        """
+    @clip_near.setter
+    def clip_near(self, value: float) -> None: ...
+    @property
+    def focus_distance(self) -> float:
+        """
+        what is that far is sharp, metres; above 0
+        """
+    @focus_distance.setter
+    def focus_distance(self, value: float) -> None: ...
+    @property
+    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        camera to world; looks along -z, y is up
+        """
+    @transform.setter
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def window_max(self) -> tuple[float, float]:
+        """
+        upper right corner, angles from the axis, radians
+        """
+    @window_max.setter
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+    @property
+    def window_min(self) -> tuple[float, float]:
+        """
+        lower left corner, angles from the axis, radians
+        """
+    @window_min.setter
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
+class CylindricalCamera:
+    """
+    A panorama on a cylinder about the y axis.
+
+    transform: camera to world; looks along -z, y is up
+    window_min: lowest longitude, radians, and height, in radii
+    window_max: highest longitude, radians, and height, in radii
+    clip_near: nothing nearer is seen, metres; at least 0
+    clip_far: nothing farther is seen, metres; above 0
+    aperture_radius: metres; 0: everything is in focus; at least 0
+    aperture_blades: corners of the aperture; below 3 it is round; at least 0
+    aperture_rotation: of the blades, radians
+    aperture_ratio: the aperture's height over its width; above 0
+    focus_distance: what is that far is sharp, metres; above 0
+    """
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-3.1415927, -1.0),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (3.1415927, 1.0),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def aperture_blades(self) -> int:
+        """
+        corners of the aperture; below 3 it is round; at least 0
+        """
+    @aperture_blades.setter
+    def aperture_blades(self, value: int) -> None: ...
+    @property
+    def aperture_radius(self) -> float:
+        """
+        metres; 0: everything is in focus; at least 0
+        """
+    @aperture_radius.setter
+    def aperture_radius(self, value: float) -> None: ...
+    @property
+    def aperture_ratio(self) -> float:
+        """
+        the aperture's height over its width; above 0
+        """
+    @aperture_ratio.setter
+    def aperture_ratio(self, value: float) -> None: ...
+    @property
+    def aperture_rotation(self) -> float:
+        """
+        of the blades, radians
+        """
+    @aperture_rotation.setter
+    def aperture_rotation(self, value: float) -> None: ...
+    @property
+    def clip_far(self) -> float:
+        """
+        nothing farther is seen, metres; above 0
+        """
+    @clip_far.setter
+    def clip_far(self, value: float) -> None: ...
+    @property
+    def clip_near(self) -> float:
+        """
+        nothing nearer is seen, metres; at least 0
+        """
+    @clip_near.setter
+    def clip_near(self, value: float) -> None: ...
+    @property
+    def focus_distance(self) -> float:
+        """
+        what is that far is sharp, metres; above 0
+        """
+    @focus_distance.setter
+    def focus_distance(self, value: float) -> None: ...
+    @property
+    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        camera to world; looks along -z, y is up
+        """
+    @transform.setter
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def window_max(self) -> tuple[float, float]:
+        """
+        highest longitude, radians, and height, in radii
+        """
+    @window_max.setter
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+    @property
+    def window_min(self) -> tuple[float, float]:
+        """
+        lowest longitude, radians, and height, in radii
         """
     @window_min.setter
     def window_min(
@@ -1572,12 +2391,35 @@ class Scene:
         Raises SceneError naming the first item that can't be rendered, the rule and the value.
         """
     @property
-    def camera(self) -> PerspectiveCamera | OrthographicCamera | None:
+    def camera(
+        self,
+    ) -> (
+        PerspectiveCamera
+        | OrthographicCamera
+        | EquirectangularCamera
+        | FisheyeEquidistantCamera
+        | FisheyeEquisolidCamera
+        | FisheyePolynomialCamera
+        | CubemapFaceCamera
+        | CylindricalCamera
+        | None
+    ):
         """
         A copy of the camera, or None; assign to change it.
         """
     @camera.setter
-    def camera(self, arg1: PerspectiveCamera | OrthographicCamera | None) -> None: ...
+    def camera(
+        self,
+        arg1: PerspectiveCamera
+        | OrthographicCamera
+        | EquirectangularCamera
+        | FisheyeEquidistantCamera
+        | FisheyeEquisolidCamera
+        | FisheyePolynomialCamera
+        | CubemapFaceCamera
+        | CylindricalCamera
+        | None,
+    ) -> None: ...
     @property
     def instances(self) -> InstanceTable: ...
     @property

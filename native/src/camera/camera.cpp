@@ -4,7 +4,18 @@
 
 #include <cmath>
 
+#include "math/frame.h"
+
 namespace basicrt {
+namespace {
+
+// The derivative of v / |v|, given that of v.
+Vec3f unit_change(Vec3f v, Vec3f change) {
+  const float scale = 1 / length(v);
+  return (change - v * (dot(v, change) * scale * scale)) * scale;
+}
+
+}  // namespace
 
 PerspectiveCamera make_look_at_camera(Vec3f position, Vec3f look_at, Vec3f up, float fov, float aspect) {
   const Vec3f forward = normalize(look_at - position);
@@ -19,16 +30,20 @@ PerspectiveCamera make_look_at_camera(Vec3f position, Vec3f look_at, Vec3f up, f
   return camera;
 }
 
-CameraView::CameraView(const Camera& camera, Vec2i film_size) {
+CameraView::CameraView(const Camera& camera, Vec2i film_size) : camera_(camera) {
   const auto set = [&](const auto& kind) {
     const Vec2f window = kind.window_max - kind.window_min;
-    set_window(kind, {window.x / static_cast<float>(film_size.x), window.y / static_cast<float>(film_size.y)});
+    step_ = {window.x / static_cast<float>(film_size.x), window.y / static_cast<float>(film_size.y)};
+    set_window(kind, step_);
     position_ = kind.to_world.column(3);
     axis_ = normalize(-kind.to_world.column(2));
+    right_ = normalize(kind.to_world.column(0));
+    up_ = normalize(kind.to_world.column(1));
     clip_near_ = kind.clip_near;
     clip_far_ = kind.clip_far;
+    has_aperture_ = kind.aperture_radius > 0;
   };
-  std::visit(set, camera);
+  std::visit(set, camera_);
 }
 
 void CameraView::set_window(const PerspectiveCamera& camera, Vec2f step) {
@@ -45,17 +60,70 @@ void CameraView::set_window(const OrthographicCamera& camera, Vec2f step) {
   direction_ = -camera.to_world.column(2);
 }
 
-RayDifferentials CameraView::differentials(Vec2f pixel) const {
-  const Vec3f direction = direction_ + direction_dx_ * pixel.x + direction_dy_ * pixel.y;
-  const float scale = 1 / length(direction);
-  // The derivative of v / |v|, given that of v.
-  const auto unit_change = [&](Vec3f change) {
-    return (change - direction * (dot(direction, change) * scale * scale)) * scale;
+template <Panorama Kind>
+void CameraView::set_window(const Kind&, Vec2f) {
+  is_panorama_ = true;
+}
+
+std::optional<Ray> CameraView::ray(Vec2f pixel, Vec2f lens) const {
+  const auto make_ray = [&]<class Kind>(const Kind& camera) -> std::optional<Ray> {
+    if constexpr (Panorama<Kind>)
+      return panorama_ray(camera, pixel, lens);
+    else
+      return has_aperture_ ? flat_ray(camera, pixel, lens) : ray(pixel);
   };
-  return {.origin_dx = origin_dx_,
-          .origin_dy = origin_dy_,
-          .direction_dx = unit_change(direction_dx_),
-          .direction_dy = unit_change(direction_dy_)};
+  return std::visit(make_ray, camera_);
+}
+
+// All rays of a pixel meet in the plane that is in focus, at one depth.
+Ray CameraView::flat_ray(const CameraBase& camera, Vec2f pixel, Vec2f lens) const {
+  const Vec2f place = sample_aperture(camera, lens);
+  const Vec3f middle = origin_ + origin_dx_ * pixel.x + origin_dy_ * pixel.y;
+  const Vec3f forward = direction_ + direction_dx_ * pixel.x + direction_dy_ * pixel.y;
+  const Vec3f origin = middle + right_ * place.x + up_ * place.y;
+  const Vec3f towards = middle + forward * (camera.focus_distance / dot(forward, axis_)) - origin;
+  const float reach = length(towards), distance_per_depth = reach / dot(towards, axis_);
+  return {.origin = origin,
+          .t_min = clip_near_ * distance_per_depth,
+          .direction = towards * (1 / reach),
+          .t_max = clip_far_ * distance_per_depth,
+          .kinds = ray_camera};
+}
+
+// The aperture turns with the view, its x axis staying as level as it can; in focus is a sphere.
+template <Panorama Kind>
+std::optional<Ray> CameraView::panorama_ray(const Kind& camera, Vec2f pixel, Vec2f lens) const {
+  const Vec2f window = window_place(camera, pixel);
+  if (!camera.sees(window)) return std::nullopt;
+  Vec3f origin = position_, direction = normalize(camera.to_world.vector(camera.bearing(window).direction));
+  if (has_aperture_) {
+    const Vec2f place = sample_aperture(camera, lens);
+    const Frame frame = make_frame(-direction, cross(direction, up_));
+    const Vec3f offset = frame.tangent * place.x + frame.bitangent * place.y;
+    origin += offset;
+    direction = normalize(direction * camera.focus_distance - offset);
+  }
+  return Ray{.origin = origin, .t_min = clip_near_, .direction = direction, .t_max = clip_far_, .kinds = ray_camera};
+}
+
+RayDifferentials CameraView::differentials(Vec2f pixel) const {
+  const auto change = [&]<class Kind>(const Kind& camera) -> RayDifferentials {
+    if constexpr (Panorama<Kind>) {
+      const Bearing bearing = camera.bearing(window_place(camera, pixel));
+      const Vec3f direction = camera.to_world.vector(bearing.direction);
+      return {.origin_dx = Vec3f(0),
+              .origin_dy = Vec3f(0),
+              .direction_dx = unit_change(direction, camera.to_world.vector(bearing.dx) * step_.x),
+              .direction_dy = unit_change(direction, camera.to_world.vector(bearing.dy) * step_.y)};
+    } else {
+      const Vec3f direction = direction_ + direction_dx_ * pixel.x + direction_dy_ * pixel.y;
+      return {.origin_dx = origin_dx_,
+              .origin_dy = origin_dy_,
+              .direction_dx = unit_change(direction, direction_dx_),
+              .direction_dy = unit_change(direction, direction_dy_)};
+    }
+  };
+  return std::visit(change, camera_);
 }
 
 }  // namespace basicrt

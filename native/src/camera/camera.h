@@ -2,49 +2,36 @@
 // Cameras: they look along local -z with y up.
 #pragma once
 
+#include <optional>
 #include <string_view>
-#include <tuple>
 #include <variant>
 
-#include "base/describe.h"
+#include "camera/camera_base.h"
+#include "camera/panorama.h"
 #include "math/ray.h"
-#include "math/transform.h"
 
 namespace basicrt {
 
-// The window is the part of the plane z = -1 that the picture shows; lens shift and sensor fit are in it.
-struct PerspectiveCamera {
-  Transform to_world;
-  Vec2f window_min{-1, -1}, window_max{1, 1};
-  float clip_near = 0, clip_far = infinity;  // depth along -z
+// The window is the part of the plane z = -1 that the picture shows.
+struct PerspectiveCamera : CameraBase {
   static constexpr std::string_view kind = "perspective";
   static constexpr auto fields() {
-    return std::tuple{
-        field("transform", &PerspectiveCamera::to_world, "camera to world; looks along -z, y is up"),
-        field("window_min", &PerspectiveCamera::window_min, "lower left corner on the plane z = -1"),
-        field("window_max", &PerspectiveCamera::window_max, "upper right corner on the plane z = -1"),
-        field("clip_near", &PerspectiveCamera::clip_near, "nothing nearer is seen, metres", at_least(0)),
-        field("clip_far", &PerspectiveCamera::clip_far, "nothing farther is seen, metres", above_or_infinite(0))};
+    return camera_fields<PerspectiveCamera>("lower left corner on the plane z = -1",
+                                            "upper right corner on the plane z = -1");
   }
 };
 
 // The window is in metres.
-struct OrthographicCamera {
-  Transform to_world;
-  Vec2f window_min{-1, -1}, window_max{1, 1};
-  float clip_near = 0, clip_far = infinity;
+struct OrthographicCamera : CameraBase {
   static constexpr std::string_view kind = "orthographic";
   static constexpr auto fields() {
-    return std::tuple{
-        field("transform", &OrthographicCamera::to_world, "camera to world; looks along -z, y is up"),
-        field("window_min", &OrthographicCamera::window_min, "lower left corner, metres"),
-        field("window_max", &OrthographicCamera::window_max, "upper right corner, metres"),
-        field("clip_near", &OrthographicCamera::clip_near, "nothing nearer is seen, metres", at_least(0)),
-        field("clip_far", &OrthographicCamera::clip_far, "nothing farther is seen, metres", above_or_infinite(0))};
+    return camera_fields<OrthographicCamera>("lower left corner, metres", "upper right corner, metres");
   }
 };
 
-using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
+using Camera =
+    std::variant<PerspectiveCamera, OrthographicCamera, EquirectangularCamera, FisheyeEquidistantCamera,
+                 FisheyeEquisolidCamera, FisheyePolynomialCamera, CubemapFaceCamera, CylindricalCamera>;
 
 // `fov` is the full vertical angle, radians; `aspect` is width over height.
 [[nodiscard]] PerspectiveCamera make_look_at_camera(Vec3f position, Vec3f look_at, Vec3f up, float fov, float aspect);
@@ -55,6 +42,11 @@ class CameraView {
   CameraView() = default;
   CameraView(const Camera& camera, Vec2i film_size);
 
+  // Neither bends lines nor blurs: ray(pixel) will do.
+  [[nodiscard]] bool is_pinhole() const { return !is_panorama_ && !has_aperture(); }
+  [[nodiscard]] bool has_aperture() const { return has_aperture_; }
+
+  // Of a pinhole.
   [[nodiscard]] Ray ray(Vec2f pixel) const {
     const Vec3f towards = direction_ + direction_dx_ * pixel.x + direction_dy_ * pixel.y;
     const float reach = length(towards), distance_per_depth = reach * (1 / dot(towards, axis_));
@@ -64,19 +56,37 @@ class CameraView {
             .t_max = clip_far_ * distance_per_depth,
             .kinds = ray_camera};
   }
-  // How the ray there changes.
+  // Of any camera; `lens` in [0, 1)^2 chooses the place on its aperture, where it has one. Nothing: it sees nothing there.
+  [[nodiscard]] std::optional<Ray> ray(Vec2f pixel, Vec2f lens) const;
+
+  // How the ray there changes: the one through the middle of the aperture.
   [[nodiscard]] RayDifferentials differentials(Vec2f pixel) const;
-  // Depth along the viewing axis, as the Depth pass has it.
-  [[nodiscard]] float depth(Vec3f position) const { return dot(position - position_, axis_); }
+  // Depth along the viewing axis, as the Depth pass has it; of a panorama, the distance.
+  [[nodiscard]] float depth(Vec3f position) const {
+    return is_panorama_ ? length(position - position_) : dot(position - position_, axis_);
+  }
 
  private:
   void set_window(const PerspectiveCamera& camera, Vec2f step);
   void set_window(const OrthographicCamera& camera, Vec2f step);
+  template <Panorama Kind>
+  void set_window(const Kind& camera, Vec2f step);
 
-  // Of the ray through (0, 0), and how they change from pixel to pixel. Directions are not yet of unit length.
+  template <Panorama Kind>
+  [[nodiscard]] std::optional<Ray> panorama_ray(const Kind& camera, Vec2f pixel, Vec2f lens) const;
+  [[nodiscard]] Ray flat_ray(const CameraBase& camera, Vec2f pixel, Vec2f lens) const;
+  [[nodiscard]] Vec2f window_place(const CameraBase& camera, Vec2f pixel) const {
+    return {camera.window_min.x + step_.x * pixel.x, camera.window_min.y + step_.y * pixel.y};
+  }
+
+  Camera camera_;
+  Vec2f step_;  // how far it is in the window from pixel to pixel
+  bool is_panorama_ = false, has_aperture_ = false;
+  // Where lines stay straight: of the ray through (0, 0), and how they change from pixel to pixel. Directions are not
+  // yet of unit length.
   Vec3f origin_, origin_dx_, origin_dy_;
   Vec3f direction_, direction_dx_, direction_dy_;
-  Vec3f position_, axis_;  // the camera's, of unit length
+  Vec3f position_, axis_, right_, up_;  // the camera's, of unit length
   float clip_near_ = 0, clip_far_ = infinity;
 };
 

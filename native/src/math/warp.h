@@ -56,4 +56,21 @@ inline Vec2f sample_triangle(Vec2f u) {
   return {u.x - y, y};
 }
 
+// In the regular polygon whose corners lie on the unit circle; the middle of a side is on the x axis. All places are
+// alike: the density is one over the area.
+inline Vec2f sample_regular_polygon(Vec2f u, int corners) {
+  const auto count = static_cast<float>(corners);
+  const float wedge = std::min(std::floor(u.x * count), count - 1);
+  // The wedge's triangle has its other corners on both sides of the x axis.
+  const Vec2f weights = sample_triangle({u.x * count - wedge, u.y});
+  const float half_angle = pi / count, angle = 2 * half_angle * wedge;
+  const float x = (weights.x + weights.y) * std::cos(half_angle), y = (weights.x - weights.y) * std::sin(half_angle);
+  const float c = std::cos(angle), s = std::sin(angle);
+  return {c * x - s * y, s * x + c * y};
+}
+inline float pdf_regular_polygon(int corners) {
+  const auto count = static_cast<float>(corners);
+  return 2 / (count * std::sin(2 * pi / count));
+}
+
 }  // namespace basicrt

@@ -72,7 +72,14 @@ struct Session::State {
   [[nodiscard]] bool is_done() const { return stop || tiles_handed_out == tiles.size(); }
   void work();
   std::optional<Tile> render_tile(const PixelRect& tile, Integrator& integrator);
+  [[nodiscard]] std::optional<Ray> camera_ray(Vec2f place, Sampler& sampler) const;
 };
+
+// Of any camera; it draws what that needs. Nothing where the camera sees nothing.
+std::optional<Ray> Session::State::camera_ray(Vec2f place, Sampler& sampler) const {
+  const Vec2f lens = scene.view.has_aperture() ? sampler.next_2d() : Vec2f{};
+  return scene.view.ray(place, lens);
+}
 
 void Session::State::work() {
   try {
@@ -100,6 +107,8 @@ std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrato
   CameraPaths paths;
   std::vector<Place> places;
   std::vector<PixelSample> samples(batch_size);
+  const bool is_pinhole = scene.view.is_pinhole();
+  const PixelSample unseen{.alpha = 0};
 
   const auto flush = [&] {
     const std::span batch = std::span(samples).first(paths.size());
@@ -121,7 +130,15 @@ std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrato
       for (int sample = 0; sample < settings.samples; ++sample) {
         Sampler sampler = pixel_sampler.at_sample(static_cast<std::uint32_t>(sample));
         const FilterSample place = filter.sample(sampler.next_2d());
-        append_result(paths.rays, [&] { return scene.view.ray(center + place.offset); });
+        if (is_pinhole) {
+          append_result(paths.rays, [&] { return scene.view.ray(center + place.offset); });
+        } else if (const std::optional<Ray> ray = camera_ray(center + place.offset, sampler)) {
+          paths.rays.push_back(*ray);
+        } else {
+          accumulator.add(x, y, unseen, place.is_negative);
+          ++samples_done;
+          continue;
+        }
         paths.samplers.push_back(sampler);
         places.push_back({x, y, place.is_negative});
         if (paths.size() < batch_size) continue;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "io/file.h"
+#include "io/described_json.h"
 #include "io/json_write.h"
 #include "io/scene_text.h"
 #include "io/temporary_folder.h"
@@ -113,6 +114,25 @@ TEST(WriteScene, tables_keep_their_order_and_names) {
   EXPECT_EQ(camera.to_world, std::get<PerspectiveCamera>(*scene.camera).to_world);
   EXPECT_EQ(camera.clip_near, 1e-45f);
   EXPECT_EQ(camera.clip_far, infinity);
+}
+
+TEST(WriteScene, every_kind_of_camera_reads_back_as_itself) {
+  for (std::size_t index = 0; index < std::variant_size_v<Camera>; ++index)
+    VariantKinds<Camera>::visit_index(index, [&]<class Kind>(Kind camera) {
+      // Another value in each field that holds one number.
+      float value = 0.1f;
+      for_each_field<Kind>([&]<class Value>(const Field<Kind, Value>& field) {
+        if constexpr (std::same_as<Value, float>) camera.*field.member = value += 0.3f;
+        if constexpr (std::same_as<Value, int>) camera.*field.member = 7;
+      });
+      Scene scene;
+      scene.camera = camera;
+      const Scene loaded = scene_of(scene_to_json(scene));
+      ASSERT_TRUE(std::holds_alternative<Kind>(*loaded.camera)) << Kind::kind;
+      for_each_field<Kind>([&](const auto& field) {
+        EXPECT_EQ(std::get<Kind>(*loaded.camera).*field.member, camera.*field.member) << Kind::kind << "." << field.name;
+      });
+    });
 }
 
 TEST(WriteScene, any_float_reads_back_as_itself) {

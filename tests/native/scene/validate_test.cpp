@@ -138,7 +138,7 @@ TEST(Validate, transforms_have_inverses) {
   EXPECT_EQ(problem_of_placement(scale(1e6f, 1, 1e-6f)), "") << "stretched is not flat";
   EXPECT_EQ(problem_after([](Scene& scene) { scene.lights.append(SpotLight{.to_world = scale(1, 0, 1)}); }),
             "lights[0].transform: is singular: it flattens space and has no inverse");
-  EXPECT_EQ(problem_after([](Scene& scene) { scene.camera = PerspectiveCamera{.to_world = scale(0, 1, 1)}; }),
+  EXPECT_EQ(problem_after([](Scene& scene) { scene.camera = PerspectiveCamera{{.to_world = scale(0, 1, 1)}}; }),
             "camera.transform: is singular: it flattens space and has no inverse");
 }
 
@@ -172,9 +172,9 @@ TEST(Validate, the_picture_has_a_size) {
 
 TEST(Validate, the_camera_s_window_and_clipping_are_not_empty) {
   EXPECT_EQ(
-      problem_after([](Scene& scene) { scene.camera = PerspectiveCamera{.window_min = {1, 0}, .window_max = {1, 2}}; }),
+      problem_after([](Scene& scene) { scene.camera = PerspectiveCamera{{.window_min = {1, 0}, .window_max = {1, 2}}}; }),
       "camera.window_max: must be greater than window_min, in x and in y");
-  EXPECT_EQ(problem_after([](Scene& scene) { scene.camera = OrthographicCamera{.clip_near = 2, .clip_far = 2}; }),
+  EXPECT_EQ(problem_after([](Scene& scene) { scene.camera = OrthographicCamera{{.clip_near = 2, .clip_far = 2}}; }),
             "camera.clip_far: must be greater than clip_near");
 }
 
