@@ -24,7 +24,9 @@ pytestmark = [
 ]
 
 SENSOR = {"sensor_width": 30, "sensor_height": 20}
-POLYNOMIAL = {f"fisheye_polynomial_k{i}": k for i, k in enumerate((-0.02, -0.07, 1e-3, -1e-4, 2e-6))}
+POLYNOMIAL = {
+    f"fisheye_polynomial_k{i}": k for i, k in enumerate((-0.02, -0.07, 1e-3, -1e-4, 2e-6))
+}
 CYLINDER = {
     "central_cylindrical_range_u_min": -2,
     "central_cylindrical_range_u_max": 1.5,
@@ -133,6 +135,7 @@ def test_blur_is_as_in_cycles(kind: str, dof: dict[str, Any], tmp_path: Path) ->
         pictures[engine] = np.array(seeds)
     ours, theirs = pictures["BASICRT"], pictures["CYCLES"]
     difference = ours.mean(axis=0) - theirs.mean(axis=0)
+
     # By blocks of 4 x 4 pixels, whose scatter over the seeds says what is noise.
     def blocks(picture: np.ndarray) -> np.ndarray:
         return picture.reshape(*picture.shape[:-3], 6, 4, 6, 4, 3).mean(axis=(-4, -2))

@@ -218,7 +218,10 @@ def test_a_fisheye_is_transparent_black_outside_of_its_circle() -> None:
         pixels = np.zeros((size, size, 4), np.float32)
         for tile in session.tiles():
             if tile is not None:
-                rows, columns = slice(tile.y, tile.y + tile.height), slice(tile.x, tile.x + tile.width)
+                rows, columns = (
+                    slice(tile.y, tile.y + tile.height),
+                    slice(tile.x, tile.x + tile.width),
+                )
                 pixels[rows, columns] = tile["Combined"]
         assert session.progress.fraction == 1
     # Unseen samples count as black: a pixel on the rim is as bright as it is covered.

@@ -29,9 +29,8 @@ struct OrthographicCamera : CameraBase {
   }
 };
 
-using Camera =
-    std::variant<PerspectiveCamera, OrthographicCamera, EquirectangularCamera, FisheyeEquidistantCamera,
-                 FisheyeEquisolidCamera, FisheyePolynomialCamera, CubemapFaceCamera, CylindricalCamera>;
+using Camera = std::variant<PerspectiveCamera, OrthographicCamera, EquirectangularCamera, FisheyeEquidistantCamera,
+                            FisheyeEquisolidCamera, FisheyePolynomialCamera, CubemapFaceCamera, CylindricalCamera>;
 
 // `fov` is the full vertical angle, radians; `aspect` is width over height.
 [[nodiscard]] PerspectiveCamera make_look_at_camera(Vec3f position, Vec3f look_at, Vec3f up, float fov, float aspect);

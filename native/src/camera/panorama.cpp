@@ -17,9 +17,7 @@ Bearing turned_about_axis(Vec2f place, float r, float angle, float slope) {
   const float s = std::sin(angle), c = std::cos(angle);
   const Vec3f outward = Vec3f{c * e.x, c * e.y, s} * slope;
   const Vec3f around = Vec3f{-e.y, e.x, 0} * (r > 0 ? s / r : slope);
-  return {.direction = {s * e.x, s * e.y, -c},
-          .dx = outward * e.x - around * e.y,
-          .dy = outward * e.y + around * e.x};
+  return {.direction = {s * e.x, s * e.y, -c}, .dx = outward * e.x - around * e.y, .dy = outward * e.y + around * e.x};
 }
 
 // 1 / cos^2: the derivative of the tangent, given that.
@@ -54,7 +52,9 @@ Bearing FisheyeEquisolidCamera::bearing(Vec2f place) const {
   return turned_about_axis(place, r, 2 * std::asin(sine), 1 / (focal_length * cosine));
 }
 
-bool FisheyePolynomialCamera::sees(Vec2f place) const { return std::abs(angle(distance_from_axis(place))) <= 0.5f * fov; }
+bool FisheyePolynomialCamera::sees(Vec2f place) const {
+  return std::abs(angle(distance_from_axis(place))) <= 0.5f * fov;
+}
 
 Bearing FisheyePolynomialCamera::bearing(Vec2f place) const {
   const float r = distance_from_axis(place);

@@ -74,14 +74,12 @@ struct FisheyePolynomialCamera : CameraBase {
   static constexpr std::string_view kind = "fisheye_polynomial";
   static constexpr auto fields() {
     using C = FisheyePolynomialCamera;
-    return camera_fields<C>("lower left corner, in the polynomial's unit",
-                            "upper right corner, in the polynomial's unit",
-                            field("fov", &C::fov, "full angle of what is seen, radians", above(0)),
-                            field("k0", &C::k0, "of the angle's polynomial in the distance, radians"),
-                            field("k1", &C::k1, "the factor of the distance"),
-                            field("k2", &C::k2, "the factor of its square"),
-                            field("k3", &C::k3, "the factor of its third power"),
-                            field("k4", &C::k4, "the factor of its fourth power"));
+    return camera_fields<C>(
+        "lower left corner, in the polynomial's unit", "upper right corner, in the polynomial's unit",
+        field("fov", &C::fov, "full angle of what is seen, radians", above(0)),
+        field("k0", &C::k0, "of the angle's polynomial in the distance, radians"),
+        field("k1", &C::k1, "the factor of the distance"), field("k2", &C::k2, "the factor of its square"),
+        field("k3", &C::k3, "the factor of its third power"), field("k4", &C::k4, "the factor of its fourth power"));
   }
 };
 

@@ -77,7 +77,6 @@ TEST(Camera, differentials_are_the_change_over_a_small_step_on_the_film) {
   }
 }
 
-
 // Where a ray from a point on the aperture goes, in pixels, for what is at one depth: the point seen through (x, y).
 Vec3f point_at_depth(const CameraView& view, Vec2f pixel, float depth, Vec2f lens) {
   const Ray ray = *view.ray(pixel, lens);
@@ -208,7 +207,8 @@ TEST_P(RoundAperture, is_sampled_with_its_density) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Aperture,
-                         testing::Values(ApertureCase{3, 0.4f, 1}, ApertureCase{6, -0.3f, 0.5f}, ApertureCase{5, 0, 3}));
+                         testing::Values(ApertureCase{3, 0.4f, 1}, ApertureCase{6, -0.3f, 0.5f},
+                                         ApertureCase{5, 0, 3}));
 INSTANTIATE_TEST_SUITE_P(Shapes, RoundAperture, testing::Values(ApertureCase{0, 0, 1}, ApertureCase{2, 1, 2}));
 
 Vec3f direction_in(const Camera& camera, Vec2f pixel) { return CameraView(camera, size).ray(pixel, {})->direction; }
@@ -301,8 +301,8 @@ std::vector<Camera> panoramas() {
   FisheyePolynomialCamera polynomial;
   polynomial.fov = 6;
   polynomial.k2 = 0.2f;
-  std::vector<Camera> cameras{EquirectangularCamera{}, equidistant, equisolid, polynomial, CubemapFaceCamera{},
-                              CylindricalCamera{}};
+  std::vector<Camera> cameras{EquirectangularCamera{}, equidistant,        equisolid, polynomial,
+                              CubemapFaceCamera{},     CylindricalCamera{}};
   const Transform turned = make_look_at_camera({1, 2, 3}, {0, 0, 0}, {0, 1, 0}, 1, 2).to_world;
   for (Camera& camera : cameras) std::visit([&](CameraBase& base) { base.to_world = turned; }, camera);
   return cameras;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "io/file.h"
 #include "io/described_json.h"
+#include "io/file.h"
 #include "io/json_write.h"
 #include "io/scene_text.h"
 #include "io/temporary_folder.h"
@@ -130,7 +130,8 @@ TEST(WriteScene, every_kind_of_camera_reads_back_as_itself) {
       const Scene loaded = scene_of(scene_to_json(scene));
       ASSERT_TRUE(std::holds_alternative<Kind>(*loaded.camera)) << Kind::kind;
       for_each_field<Kind>([&](const auto& field) {
-        EXPECT_EQ(std::get<Kind>(*loaded.camera).*field.member, camera.*field.member) << Kind::kind << "." << field.name;
+        EXPECT_EQ(std::get<Kind>(*loaded.camera).*field.member, camera.*field.member)
+            << Kind::kind << "." << field.name;
       });
     });
 }

@@ -171,9 +171,9 @@ TEST(Validate, the_picture_has_a_size) {
 }
 
 TEST(Validate, the_camera_s_window_and_clipping_are_not_empty) {
-  EXPECT_EQ(
-      problem_after([](Scene& scene) { scene.camera = PerspectiveCamera{{.window_min = {1, 0}, .window_max = {1, 2}}}; }),
-      "camera.window_max: must be greater than window_min, in x and in y");
+  EXPECT_EQ(problem_after(
+                [](Scene& scene) { scene.camera = PerspectiveCamera{{.window_min = {1, 0}, .window_max = {1, 2}}}; }),
+            "camera.window_max: must be greater than window_min, in x and in y");
   EXPECT_EQ(problem_after([](Scene& scene) { scene.camera = OrthographicCamera{{.clip_near = 2, .clip_far = 2}}; }),
             "camera.clip_far: must be greater than clip_near");
 }
