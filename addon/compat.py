@@ -21,6 +21,8 @@ Shaded = bpy.types.Material | bpy.types.World | bpy.types.Light
 # every version has every one of them.
 SHARED_PANELS = (
     "DATA_PT_EEVEE_light",
+    "DATA_PT_camera_dof",
+    "DATA_PT_camera_dof_aperture",
     "EEVEE_MATERIAL_PT_context_material",
     "EEVEE_MATERIAL_PT_surface",
     "EEVEE_WORLD_PT_surface",

@@ -185,6 +185,45 @@ class BASICRT_OBJECT_PT_ray_visibility(_Panel, bpy.types.Panel):
                 column.prop(context.object, f"visible_{kind}", text=kind.capitalize())
 
 
+# What each panorama_type has beside its name; Blender shows it for Cycles alone.
+PANORAMA_PROPERTIES = {
+    "EQUIRECTANGULAR": ("latitude_min", "latitude_max", "longitude_min", "longitude_max"),
+    "FISHEYE_EQUIDISTANT": ("fisheye_fov",),
+    "FISHEYE_EQUISOLID": ("fisheye_lens", "fisheye_fov"),
+    "FISHEYE_LENS_POLYNOMIAL": (
+        "fisheye_fov",
+        *(f"fisheye_polynomial_k{power}" for power in range(5)),
+    ),
+    "CENTRAL_CYLINDRICAL": (
+        "central_cylindrical_range_v_min",
+        "central_cylindrical_range_v_max",
+        "central_cylindrical_range_u_min",
+        "central_cylindrical_range_u_max",
+        "central_cylindrical_radius",
+    ),
+}
+
+
+class BASICRT_CAMERA_PT_panorama(_Panel, bpy.types.Panel):
+    """How a panoramic camera bends what it sees."""
+
+    bl_label = "Panorama"
+    bl_context = "data"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Blender's callback."""
+        b_camera = getattr(context, "camera", None)
+        return super().poll(context) and b_camera is not None and b_camera.type == "PANO"
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        column.prop(context.camera, "panorama_type", text="Type")
+        for name in PANORAMA_PROPERTIES.get(context.camera.panorama_type, ()):
+            column.prop(context.camera, name)
+
+
 _PANELS = (
     BASICRT_RENDER_PT_sampling,
     BASICRT_RENDER_PT_cycles,
@@ -194,6 +233,7 @@ _PANELS = (
     BASICRT_RENDER_PT_warnings,
     BASICRT_VIEWLAYER_PT_passes,
     BASICRT_OBJECT_PT_ray_visibility,
+    BASICRT_CAMERA_PT_panorama,
 )
 
 

@@ -134,7 +134,7 @@ def test_view_layer_may_override_the_world() -> None:
 
 
 def test_shared_panels_exist_in_some_version() -> None:
-    # The first four are in all versions; VIEWLAYER_PT_override came later.
+    # All but VIEWLAYER_PT_override, which came later, are in all versions.
     missing = [name for name in compat.SHARED_PANELS if not hasattr(bpy.types, name)]
     assert missing in ([], ["VIEWLAYER_PT_override"])
 

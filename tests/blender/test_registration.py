@@ -8,7 +8,7 @@ import addon
 import bpy
 import pytest
 from addon.report import Report, show_warnings
-from addon.ui import core_panels
+from addon.ui import core_panels, panels
 
 from support.blender import new_scene
 
@@ -49,6 +49,8 @@ def test_core_panels_are_shown() -> None:
     assert {
         "RENDER_PT_color_management",
         "DATA_PT_lens",
+        "DATA_PT_camera_dof",
+        "DATA_PT_camera_dof_aperture",
         "EEVEE_MATERIAL_PT_surface",
         "EEVEE_WORLD_PT_surface",
         "DATA_PT_EEVEE_light",
@@ -59,7 +61,7 @@ def test_core_panels_are_shown() -> None:
 
 def test_own_panels_are_shown_for_no_other_engine() -> None:
     own = [p for p in all_panels() if p.__name__.startswith("BASICRT_")]
-    assert len(own) == 8
+    assert len(own) == 9
     assert all({"BASICRT"} == p.COMPAT_ENGINES for p in own)
 
 
@@ -89,8 +91,8 @@ def test_registering_again_works(unregistered: None) -> None:
 
 
 def test_core_panels_are_found_once() -> None:
-    panels = list(core_panels.core_panels())
-    assert len(panels) == len(set(panels))
+    found = list(core_panels.core_panels())
+    assert len(found) == len(set(found))
 
 
 def test_warnings_panel_shows_only_when_there_are_some() -> None:
@@ -104,3 +106,33 @@ def test_warnings_panel_shows_only_when_there_are_some() -> None:
     show_warnings(report)
     assert panel.poll(context)
     show_warnings(Report())
+
+
+class DrawnNames:
+    """A layout that notes what is drawn, and refuses what its owner doesn't have."""
+
+    def __init__(self) -> None:
+        self.names: list[str] = []
+
+    def column(self) -> "DrawnNames":
+        return self
+
+    def prop(self, owner: Any, name: str, **_options: Any) -> None:
+        assert name in owner.bl_rna.properties, name
+        self.names.append(name)
+
+
+def test_panoramas_show_what_they_have() -> None:
+    new_scene()
+    b_camera: Any = bpy.data.cameras.new("Camera")
+    context = type("Context", (), {"engine": "BASICRT", "camera": b_camera})
+    panel = panels.BASICRT_CAMERA_PT_panorama
+    assert not panel.poll(context)
+    b_camera.type = "PANO"
+    assert panel.poll(context)
+    for item in type(b_camera).bl_rna.properties["panorama_type"].enum_items:
+        b_camera.panorama_type = item.identifier
+        drawn = type("Drawn", (), {"layout": DrawnNames(), "column": panel.column})()
+        panel.draw(drawn, context)
+        own = [name for name in drawn.layout.names if name != "panorama_type"]
+        assert tuple(own) == panels.PANORAMA_PROPERTIES.get(item.identifier, ())
