@@ -114,6 +114,28 @@ def test_every_panorama_of_this_blender_is_supported() -> None:
     assert report.warnings == ()
 
 
+@pytest.mark.parametrize("fit", ["AUTO", "HORIZONTAL", "VERTICAL"])
+@pytest.mark.parametrize("size", [(24, 16), (16, 24)])
+def test_panorama_with_a_sensor_shows_all_of_it(fit: str, size: tuple[int, int]) -> None:
+    scene = new_scene(*size)
+    scene.render.pixel_aspect_x = 2
+    sensor = {"sensor_fit": fit, "sensor_width": 30, "sensor_height": 20}
+    made = add_camera(kind="PANO", panorama_type="FISHEYE_EQUISOLID", **sensor)
+    exported = export().camera
+    made.data.type, made.data.lens = "PERSP", 1
+    lower, upper = frame_window(made)
+    np.testing.assert_allclose(exported.window_min, lower, rtol=2e-6)
+    np.testing.assert_allclose(exported.window_max, upper, rtol=2e-6)
+
+
+def test_panoramas_shift_by_parts_of_width_and_height() -> None:
+    new_scene(24, 16)
+    add_camera(kind="PANO", panorama_type="EQUIRECTANGULAR", shift_x=0.25, shift_y=-0.5)
+    exported = export().camera
+    np.testing.assert_allclose(exported.window_min, (-np.pi / 2, -np.pi), rtol=1e-6)
+    np.testing.assert_allclose(exported.window_max, (3 * np.pi / 2, 0), atol=1e-6)
+
+
 @pytest.mark.parametrize(("kind", "radius"), [("PERSP", 0.0125), ("ORTHO", 0.25), ("PANO", 0.0125)])
 def test_aperture_is_that_of_the_f_stop(kind: str, radius: float) -> None:
     new_scene()

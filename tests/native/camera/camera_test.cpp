@@ -142,7 +142,8 @@ TEST(CameraLens, the_camera_s_scale_does_not_change_the_aperture) {
   camera.to_world.rows = {{{3, 0, 0, 0}, {0, 3, 0, 0}, {0, 0, 3, 0}}};
   float widest = 0;
   for (int i = 0; i < 100; ++i)
-    widest = std::max(widest, length(CameraView(camera, size).ray({0, 0}, {0.999f, 0.01f * i})->origin));
+    widest =
+        std::max(widest, length(CameraView(camera, size).ray({0, 0}, {0.999f, 0.01f * static_cast<float>(i)})->origin));
   EXPECT_NEAR(widest, 0.25f, 1e-3);
 }
 
