@@ -65,7 +65,11 @@ void bind_instance(py::module_& m) {
          const auto bits = PythonValue<std::int64_t>::read(value, item);
          if (bits < 0 || bits > ray_all) refuse_value(item, "must be RayKind bits", value);
          self.visibility = static_cast<std::uint32_t>(bits);
-       }}};
+       }},
+      make_attribute(
+          field("motion_transforms", &Instance::motion_transforms,
+                "object to world at further times, equally spaced: `transform` is when the shutter opens, the "
+                "last when it closes; matrices are linear between them"))};
   bind_fields<Instance>(m, "Instance", "A shape placed in the world.", attributes);
 }
 

@@ -120,6 +120,18 @@ def test_the_repr_of_plain_values_makes_an_equal_object() -> None:
         (lambda: basicrt.RenderSettings(passes=["Depht"]), 'passes: .*"Depht": .*"Depth"'),
         (lambda: basicrt.Instance(0, materials=[0, -2]), r"Instance.materials\[1\]: must be in"),
         (lambda: basicrt.Instance(0, visibility=-1), "Instance.visibility: must be RayKind bits"),
+        (
+            lambda: basicrt.Instance(0, motion_transforms=[np.eye(4), np.eye(3)]),
+            r"Instance.motion_transforms\[1\]: must have the shape",
+        ),
+        (
+            lambda: basicrt.PerspectiveCamera(motion_transforms=[np.ones((4, 4))]),
+            r"PerspectiveCamera.motion_transforms\[0\]: must have the last row 0 0 0 1",
+        ),
+        (
+            lambda: basicrt.RenderSettings(shutter_curve=[1, -1]),
+            "RenderSettings.shutter_curve: must be at least 0, is -1",
+        ),
         (lambda: basicrt.MixShader(first=-1), "MixShader.first: must be in"),
     ],
 )

@@ -40,6 +40,7 @@ def test_optional_arrays_may_be_missing() -> None:
     assert mesh.corner_normals is None
     assert mesh.uvs is None
     assert mesh.material_slots is None
+    assert mesh.motion_positions == mesh.motion_corner_normals == []
     assert repr(mesh) == "<Mesh of 4 positions, 2 triangles>"
 
 
@@ -47,6 +48,24 @@ def test_corners_may_come_in_one_row() -> None:
     mesh = Mesh(POSITIONS, TRIANGLES, corner_normals=NORMALS.reshape(6, 3), uvs=UVS.reshape(6, 2))
     assert np.array_equal(mesh.corner_normals, NORMALS)
     assert np.array_equal(mesh.uvs, UVS)
+
+
+def test_a_mesh_that_deforms_has_its_arrays_at_further_times() -> None:
+    positions = np.stack([POSITIONS + 1, POSITIONS + 2, POSITIONS * 3])
+    normals = np.stack([NORMALS, -NORMALS, NORMALS * 2])
+    for given in (normals, normals.reshape(3, 6, 3)):
+        mesh = Mesh(
+            POSITIONS,
+            TRIANGLES,
+            corner_normals=NORMALS,
+            motion_positions=positions.astype(float),
+            motion_corner_normals=given,
+        )
+        assert np.array_equal(mesh.positions, POSITIONS)
+        assert np.array_equal(mesh.motion_positions, positions)
+        assert np.array_equal(mesh.motion_corner_normals, normals)
+        assert not mesh.motion_positions[0].flags.writeable
+    assert Mesh(POSITIONS, TRIANGLES, motion_positions=[]).motion_positions == []
 
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float64, np.int32, np.uint8, ">f4"])
@@ -119,6 +138,26 @@ def test_a_mesh_may_be_empty() -> None:
         (
             {"uvs": UVS[..., :1]},
             r"uvs: must have the shape \(2, 3, 2\) or \(6, 2\), is \(2, 3, 1\)",
+        ),
+        (
+            {"motion_positions": POSITIONS},
+            r"motion_positions: must have the shape \(N, 4, 3\), is \(4, 3\)",
+        ),
+        (
+            {"motion_positions": [POSITIONS[:3]]},
+            r"motion_positions: must have the shape \(N, 4, 3\), is \(1, 3, 3\)",
+        ),
+        (
+            {"motion_positions": [POSITIONS * np.nan]},
+            r"motion_positions\[0, 0, 0\]: must be a finite number",
+        ),
+        (
+            {"motion_positions": [POSITIONS], "corner_normals": NORMALS},
+            "motion_corner_normals: must have as many keys as motion_positions",
+        ),
+        (
+            {"motion_positions": [POSITIONS], "motion_corner_normals": [NORMALS]},
+            "motion_corner_normals: must have as many keys as motion_positions",
         ),
         ({"material_slots": [0]}, r"material_slots: must have the shape \(2,\), is \(1,\)"),
         ({"material_slots": [0, -1]}, r"material_slots\[1\]: must be in"),

@@ -79,7 +79,10 @@ class Mesh:
 
     positions (V, 3) float32, metres; triangles (T, 3) uint32, counter-clockwise seen from the front; corner_normals
     (T, 3, 3) or (3T, 3) float32, unit length, without them the mesh is flat; uvs (T, 3, 2) or (3T, 2) float32;
-    material_slots (T,) uint32, without them every triangle has slot 0. Other real (or integer) types are converted.
+    material_slots (T,) uint32, without them every triangle has slot 0. A mesh that deforms has motion_positions
+    (K, V, 3) float32 and, where it has corner_normals, motion_corner_normals (K, T, 3, 3) or (K, 3T, 3) float32: those at K
+    further times, equally spaced; the others are when the shutter opens, the last of these when it closes, and all is
+    linear between them. Other real (or integer) types are converted.
     Raises SceneError naming the array, the rule and the value.
     """
     def __init__(
@@ -90,6 +93,8 @@ class Mesh:
         corner_normals: numpy.typing.ArrayLike | None = None,
         uvs: numpy.typing.ArrayLike | None = None,
         material_slots: numpy.typing.ArrayLike | None = None,
+        motion_positions: numpy.typing.ArrayLike | None = None,
+        motion_corner_normals: numpy.typing.ArrayLike | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -101,6 +106,16 @@ class Mesh:
     def material_slots(self) -> numpy.typing.NDArray[numpy.uint32] | None:
         """
         (T,) uint32, or None: all 0
+        """
+    @property
+    def motion_corner_normals(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        (T, 3, 3) float32 for each further time; none where it doesn't deform or is flat
+        """
+    @property
+    def motion_positions(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        (V, 3) float32 for each further time; none where it doesn't deform
         """
     @property
     def positions(self) -> numpy.typing.NDArray[numpy.float32]:
@@ -1042,6 +1057,7 @@ class PerspectiveCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1055,6 +1071,7 @@ class PerspectiveCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1106,6 +1123,15 @@ class PerspectiveCamera:
         """
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
+    @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1146,6 +1172,7 @@ class OrthographicCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1159,6 +1186,7 @@ class OrthographicCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1210,6 +1238,15 @@ class OrthographicCamera:
         """
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
+    @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1250,6 +1287,7 @@ class EquirectangularCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1269,6 +1307,7 @@ class EquirectangularCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1321,6 +1360,15 @@ class EquirectangularCamera:
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
     @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
+    @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
@@ -1360,6 +1408,7 @@ class FisheyeEquidistantCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     fov: full angle of the circle that is seen, radians; above 0
     """
     def __init__(
@@ -1380,6 +1429,7 @@ class FisheyeEquidistantCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
         fov: float = 3.1415927,
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -1440,6 +1490,15 @@ class FisheyeEquidistantCamera:
     @fov.setter
     def fov(self, value: float) -> None: ...
     @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
+    @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
@@ -1479,6 +1538,7 @@ class FisheyeEquisolidCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     fov: full angle of the circle that is seen, radians; above 0
     focal_length: in the window's unit; above 0
     """
@@ -1494,6 +1554,7 @@ class FisheyeEquisolidCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
         fov: float = 3.1415927,
         focal_length: float = 0.70710677,
     ) -> None: ...
@@ -1562,6 +1623,15 @@ class FisheyeEquisolidCamera:
     @fov.setter
     def fov(self, value: float) -> None: ...
     @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
+    @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
@@ -1601,6 +1671,7 @@ class FisheyePolynomialCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     fov: full angle of what is seen, radians; above 0
     k0: of the angle's polynomial in the distance, radians
     k1: the factor of the distance
@@ -1620,6 +1691,7 @@ class FisheyePolynomialCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
         fov: float = 3.1415927,
         k0: float = 0.0,
         k1: float = 1.0,
@@ -1720,6 +1792,15 @@ class FisheyePolynomialCamera:
     @k4.setter
     def k4(self, value: float) -> None: ...
     @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
+    @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
@@ -1759,6 +1840,7 @@ class CubemapFaceCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1778,6 +1860,7 @@ class CubemapFaceCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1829,6 +1912,15 @@ class CubemapFaceCamera:
         """
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
+    @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1869,6 +1961,7 @@ class CylindricalCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1882,6 +1975,7 @@ class CylindricalCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1933,6 +2027,15 @@ class CylindricalCamera:
         """
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
+    @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1995,6 +2098,7 @@ class RenderSettings:
     sampler: how a pixel's samples are spread: evenly, or each by chance
     film_transparent: the background has alpha 0
     exposure: multiplies radiance; at least 0
+    shutter_curve: how far the shutter is open at equally spaced times; none: wide open throughout; at least 0
     integrator: how light is computed
     max_bounces: scatterings after which a path ends; in [0, 1024]
     diffuse_bounces: diffuse reflections after which a path ends; in [0, 1024]
@@ -2023,6 +2127,7 @@ class RenderSettings:
         sampler: str = "sobol",
         film_transparent: bool = False,
         exposure: float = 1.0,
+        shutter_curve: collections.abc.Iterable[float] = [],
         integrator: str = "path",
         max_bounces: int = 12,
         diffuse_bounces: int = 4,
@@ -2206,6 +2311,13 @@ class RenderSettings:
     @seed.setter
     def seed(self, value: int) -> None: ...
     @property
+    def shutter_curve(self) -> list[float]:
+        """
+        how far the shutter is open at equally spaced times; none: wide open throughout; at least 0
+        """
+    @shutter_curve.setter
+    def shutter_curve(self, value: collections.abc.Iterable[float]) -> None: ...
+    @property
     def transmission_bounces(self) -> int:
         """
         transmissions after which a path ends; in [0, 1024]
@@ -2236,6 +2348,7 @@ class Instance:
     materials: for each material slot an index into Scene.materials; None is a diffuse grey of 0.8
     name: for messages
     visibility: RayKind bits: the rays that see it
+    motion_transforms: object to world at further times, equally spaced: `transform` is when the shutter opens, the last when it closes; matrices are linear between them
     """
     def __init__(
         self,
@@ -2244,6 +2357,7 @@ class Instance:
         materials: collections.abc.Iterable[int | None] = [],
         name: str = "",
         visibility: int = 4294967295,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -2253,6 +2367,15 @@ class Instance:
         """
     @materials.setter
     def materials(self, value: collections.abc.Iterable[int | None]) -> None: ...
+    @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        object to world at further times, equally spaced: `transform` is when the shutter opens, the last when it closes; matrices are linear between them
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def name(self) -> str:
         """

@@ -28,26 +28,40 @@ void intersect_block(const TriangleBlock& block, PreciseRay& ray, std::optional<
   }
 }
 
-}  // namespace
-
-std::optional<Hit> intersect_mesh_precisely(const MeshTree& mesh, PreciseRay ray) {
+// find_block(index) is a leaf's block.
+template <class FindBlock>
+std::optional<Hit> intersect_tree(const NodeTree& tree, PreciseRay ray, const FindBlock& find_block) {
   std::optional<Hit> nearest;
   const BoxRay box_ray = make_box_ray(ray.origin, ray.direction);
-  std::vector<TreeReference> waiting{mesh.tree.root};
+  std::vector<TreeReference> waiting{tree.root};
   while (!waiting.empty()) {
     const TreeReference current = waiting.back();
     waiting.pop_back();
     if (current == no_reference) continue;
-    if (current >= triangles_mark) {
-      intersect_block(mesh.blocks[current & reference_index], ray, nearest);
+    if (current >= moving_triangles_mark) {
+      intersect_block(find_block(current & reference_index), ray, nearest);
       continue;
     }
-    const TreeNode& node = mesh.tree.nodes[current];
+    const TreeNode& node = tree.nodes[current];
     const Interval range{static_cast<float>(ray.t_min), static_cast<float>(ray.t_max)};
     for (std::size_t child = 0; child < 8; ++child)
       if (intersect_box(box_ray, child_bounds(node, child), range)) waiting.push_back(node.children[child]);
   }
   return nearest;
+}
+
+}  // namespace
+
+std::optional<Hit> intersect_mesh_precisely(const MeshTree& mesh, PreciseRay ray) {
+  return intersect_tree(mesh.tree, ray,
+                        [&](std::uint32_t index) -> const TriangleBlock& { return mesh.blocks[index]; });
+}
+
+std::optional<Hit> intersect_mesh_precisely(const MovingMeshTree& mesh, PreciseRay ray) {
+  const auto [first, fraction] = key_interval(static_cast<std::uint32_t>(mesh.intervals.size()), ray.time);
+  const MovingMeshTree::Interval& interval = mesh.intervals[first];
+  return intersect_tree(interval.tree, ray,
+                        [&](std::uint32_t index) { return block_at(interval.blocks[index], fraction); });
 }
 
 std::optional<Hit> intersect_sphere_precisely(const Sphere& sphere, PreciseRay ray) {

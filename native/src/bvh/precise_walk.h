@@ -13,6 +13,8 @@ namespace basicrt {
 
 // The nearest hit in [t_min, t_max], without its instance.
 [[nodiscard]] std::optional<Hit> intersect_mesh_precisely(const MeshTree& mesh, PreciseRay ray);
+// At the ray's time.
+[[nodiscard]] std::optional<Hit> intersect_mesh_precisely(const MovingMeshTree& mesh, PreciseRay ray);
 [[nodiscard]] std::optional<Hit> intersect_sphere_precisely(const Sphere& sphere, PreciseRay ray);
 
 }  // namespace basicrt

@@ -117,7 +117,8 @@ void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const Sur
 void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf) {
   if (bsdf.has_only_deltas() || scene_.lights.is_empty()) return;
   const float choice = path.sampler.next_1d();
-  const std::optional<LightSample> light = scene_.lights.sample(point.position, choice, path.sampler.next_2d());
+  const std::optional<LightSample> light =
+      scene_.lights.sample(point.position, choice, path.sampler.next_2d(), ray.time);
   if (!light) return;
   const BsdfValue reflected = bsdf.eval(-ray.direction, light->wi);
   const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, reflected.pdf);

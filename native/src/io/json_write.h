@@ -17,6 +17,9 @@ namespace basicrt {
 [[nodiscard]] Json write(Vec2f value);
 [[nodiscard]] Json write(Vec3f value);
 [[nodiscard]] Json write(const Transform& value);  // 16 numbers, row by row
+// Null for none.
+[[nodiscard]] Json write(const std::vector<float>& values);
+[[nodiscard]] Json write(const std::vector<Transform>& values);
 
 template <class T>
   requires std::is_integral_v<T>

@@ -84,6 +84,10 @@ Json write_mesh(const Mesh& mesh) {
   if (!mesh.corner_normals.empty()) json["corner_normals"] = write_array(mesh.corner_normals);
   if (!mesh.uvs.empty()) json["uvs"] = write_array(mesh.uvs);
   if (!mesh.material_slots.empty()) json["material_slots"] = write_array(mesh.material_slots);
+  for (const std::vector<Vec3f>& positions : mesh.motion_positions)
+    json["motion_positions"].push_back(write_array(positions));
+  for (const std::vector<Vec3f>& normals : mesh.motion_corner_normals)
+    json["motion_corner_normals"].push_back(write_array(normals));
   return json;
 }
 
@@ -97,6 +101,7 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
   if (!instance.name.empty()) json["name"] = instance.name;
   json["shape"] = keys.shapes.at(instance.shape.index);
   json["transform"] = write(instance.object_to_world);
+  if (!instance.motion_transforms.empty()) json["motion_transforms"] = write(instance.motion_transforms);
   if (!instance.materials.empty()) json["materials"] = Json::array();
   for (const Id<Material> id : instance.materials)
     json["materials"].push_back(id.is_valid() ? Json(keys.materials.at(id.index)) : Json(nullptr));

@@ -61,7 +61,7 @@ LightSet::LightSet(std::vector<Light> lamps, std::vector<EmissiveInstance> emitt
   choices_ = DiscreteDistribution(choice_weights(std::move(powers)));
 }
 
-std::optional<LightSample> LightSet::sample(Vec3f position, float choice, Vec2f u) const {
+std::optional<LightSample> LightSet::sample(Vec3f position, float choice, Vec2f u, float time) const {
   if (is_empty()) return std::nullopt;
   const auto [light, probability, remainder] = choices_.choose(choice);
   std::optional<LightSample> sample;
@@ -69,8 +69,8 @@ std::optional<LightSample> LightSet::sample(Vec3f position, float choice, Vec2f 
     sample = sample_light(lamps_[light], position, u);
   } else {
     const Emitter& emitter = emitters_[light - lamps_.size()];
-    sample = std::visit(Overloaded{[&](const MeshEmitter& mesh) { return mesh.sample(position, remainder, u); },
-                                   [&](const SphereEmitter& sphere) { return sphere.sample(position, u); }},
+    sample = std::visit(Overloaded{[&](const MeshEmitter& mesh) { return mesh.sample(position, remainder, u, time); },
+                                   [&](const SphereEmitter& sphere) { return sphere.sample(position, u, time); }},
                         emitter);
   }
   if (!sample) return std::nullopt;
@@ -83,10 +83,10 @@ float LightSet::pdf_surface(const SurfacePoint& point, Vec3f origin) const {
   if (point.instance >= emitter_of_instance_.size()) return 0;
   const std::uint32_t index = emitter_of_instance_[point.instance];
   if (index == no_emitter) return 0;
-  const double pdf =
-      std::visit(Overloaded{[&](const MeshEmitter& mesh) { return mesh.pdf(point.primitive, point.position, origin); },
-                            [&](const SphereEmitter& sphere) { return sphere.pdf(point.position, origin); }},
-                 emitters_[index]);
+  const double pdf = std::visit(
+      Overloaded{[&](const MeshEmitter& mesh) { return mesh.pdf(point.primitive, point.position, origin, point.time); },
+                 [&](const SphereEmitter& sphere) { return sphere.pdf(point.position, origin, point.time); }},
+      emitters_[index]);
   const double probability = choices_.probability(static_cast<std::uint32_t>(lamps_.size()) + index);
   const auto result = static_cast<float>(pdf * probability);
   return result < infinity ? result : 0;

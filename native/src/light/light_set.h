@@ -32,8 +32,8 @@ class LightSet {
            const Bounds3f& scene_bounds);
 
   // Chooses a light with `choice` and a point on it with `u`; the pdf includes the choice. Nothing where no light
-  // reaches the position.
-  [[nodiscard]] std::optional<LightSample> sample(Vec3f position, float choice, Vec2f u) const;
+  // reaches the position. Emissive shapes that move are where they are at the time.
+  [[nodiscard]] std::optional<LightSample> sample(Vec3f position, float choice, Vec2f u, float time = 0) const;
 
   // The density of sample() for a ray from `origin` that hit an emissive surface.
   [[nodiscard]] float pdf_surface(const SurfacePoint& point, Vec3f origin) const;

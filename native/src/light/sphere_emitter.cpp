@@ -21,32 +21,35 @@ double surface_area(const TransformD& object_to_world, double radius) {
 
 SphereEmitter::SphereEmitter(const EmissiveInstance& instance, const Sphere& sphere)
     : ball_{sphere.center, sphere.radius},
-      object_to_world_(instance.object_to_world),
-      world_to_object_(instance.world_to_object),
+      placement_(instance.object_to_world),
+      motion_(instance.motion),
       front_(instance.front.front()),
       back_(instance.back.front()),
-      power_(std::numbers::pi * surface_area(object_to_world_, sphere.radius) *
+      power_(std::numbers::pi * surface_area(instance.object_to_world, sphere.radius) *
              (double(luminance(front_)) + luminance(back_))) {}
 
-std::optional<LightSample> SphereEmitter::sample(Vec3f position, Vec2f u) const {
-  const Vec3f local_position(world_to_object_.point(Vec3d(position)));
+std::optional<LightSample> SphereEmitter::sample(Vec3f position, Vec2f u, float time) const {
+  const Placement placement = placement_at(time);
+  const Vec3f local_position(placement.world_to_object.point(Vec3d(position)));
   const std::optional<BallSample> local = sample_ball(ball_, local_position, u);
   if (!local) return std::nullopt;
-  const Vec3d local_wi(local->wi), wi = object_to_world_.vector(local_wi);
+  const Vec3d local_wi(local->wi), wi = placement.object_to_world.vector(local_wi);
   const double stretch = length(wi);
   return LightSample{.wi = Vec3f(wi / stretch),
                      .distance = float(local->distance * stretch),
                      .radiance = radiance_towards(local_position),
-                     .pdf = local->pdf * float(solid_angle_ratio(object_to_world_, local_wi))};
+                     .pdf = local->pdf * float(solid_angle_ratio(placement.object_to_world, local_wi))};
 }
 
-double SphereEmitter::pdf(Vec3f place, Vec3f position) const {
-  const Vec3f local_position(world_to_object_.point(Vec3d(position)));
+double SphereEmitter::pdf(Vec3f place, Vec3f position, float time) const {
+  const Placement placement = placement_at(time);
+  const Vec3f local_position(placement.world_to_object.point(Vec3d(position)));
   if (is_black(radiance_towards(local_position))) return 0;
-  const Vec3d local_offset = world_to_object_.vector(Vec3d(place) - Vec3d(position));
+  const Vec3d local_offset = placement.world_to_object.vector(Vec3d(place) - Vec3d(position));
   const double distance = length(local_offset);
   if (!(distance > 0)) return 0;
-  return pdf_ball(ball_, local_position, distance) * solid_angle_ratio(object_to_world_, local_offset / distance);
+  return pdf_ball(ball_, local_position, distance) *
+         solid_angle_ratio(placement.object_to_world, local_offset / distance);
 }
 
 Color SphereEmitter::radiance_towards(Vec3f local_position) const {

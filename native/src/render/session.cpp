@@ -15,6 +15,7 @@
 #include "integrator/integrator.h"
 #include "render/tile_order.h"
 #include "sampling/filter.h"
+#include "sampling/shutter.h"
 
 namespace basicrt {
 namespace {
@@ -42,6 +43,7 @@ struct Session::State {
   PreparedScene scene;
   SessionOptions options;
   PixelFilter filter;
+  Shutter shutter;
   PixelRect rect;
   std::vector<PixelRect> tiles;
   std::uint64_t sample_count;
@@ -64,6 +66,7 @@ struct Session::State {
       : scene(std::move(scene_)),
         options(options_),
         filter(scene.settings.filter),
+        shutter(scene.settings.shutter_curve),
         rect(picture_rect(scene.settings)),
         tiles(make_tiles(rect, options.tile_size)),
         sample_count(static_cast<std::uint64_t>(rect.width) * rect.height * scene.settings.samples) {}
@@ -75,10 +78,15 @@ struct Session::State {
   [[nodiscard]] std::optional<Ray> camera_ray(Vec2f place, Sampler& sampler) const;
 };
 
-// Of any camera; it draws what that needs. Nothing where the camera sees nothing.
+// Of any camera at any time; it draws what that needs. Nothing where the camera sees nothing.
 std::optional<Ray> Session::State::camera_ray(Vec2f place, Sampler& sampler) const {
   const Vec2f lens = scene.view.has_aperture() ? sampler.next_2d() : Vec2f{};
-  return scene.view.ray(place, lens);
+  if (!scene.has_motion) return scene.view.ray(place, lens);
+  const float time = shutter.sample(sampler.next_1d());
+  std::optional<Ray> ray =
+      scene.moving_camera.is_moving() ? scene.moving_camera.at(time).ray(place, lens) : scene.view.ray(place, lens);
+  if (ray) ray->time = time;
+  return ray;
 }
 
 void Session::State::work() {
@@ -107,7 +115,7 @@ std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrato
   CameraPaths paths;
   std::vector<Place> places;
   std::vector<PixelSample> samples(batch_size);
-  const bool is_pinhole = scene.view.is_pinhole();
+  const bool is_still_pinhole = scene.view.is_pinhole() && !scene.has_motion;
   const PixelSample unseen{.alpha = 0};
 
   const auto flush = [&] {
@@ -130,7 +138,7 @@ std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrato
       for (int sample = 0; sample < settings.samples; ++sample) {
         Sampler sampler = pixel_sampler.at_sample(static_cast<std::uint32_t>(sample));
         const FilterSample place = filter.sample(sampler.next_2d());
-        if (is_pinhole) {
+        if (is_still_pinhole) {
           append_result(paths.rays, [&] { return scene.view.ray(center + place.offset); });
         } else if (const std::optional<Ray> ray = camera_ray(center + place.offset, sampler)) {
           paths.rays.push_back(*ray);

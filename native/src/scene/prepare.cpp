@@ -34,11 +34,17 @@ std::size_t triangle_count(const Shape& shape) {
   return mesh ? mesh->triangles.size() : 0;
 }
 
+// Of all its trees.
+std::size_t tree_triangle_count(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return triangle_count(shape) * (mesh && mesh->is_deforming() ? mesh->motion_intervals() : 1);
+}
+
 // Large shapes one by one with all threads, then the small ones side by side.
 void build_trees(const std::vector<Shape>& shapes, const std::vector<std::uint32_t>& to_build, const BvhConfig& config,
                  std::vector<ShapeTree>& trees) {
   if (config.progress)
-    for (const std::uint32_t i : to_build) config.progress->expect(build_work(triangle_count(shapes[i])));
+    for (const std::uint32_t i : to_build) config.progress->expect(build_work(tree_triangle_count(shapes[i])));
   std::vector<std::uint32_t> small;
   for (const std::uint32_t i : to_build) {
     if (triangle_count(shapes[i]) < large_mesh)
@@ -108,12 +114,22 @@ std::vector<std::uint32_t> resolve_materials(const Instance& instance, std::uint
   return slots;
 }
 
+// All keys, or none.
+std::vector<TransformD> motion_of(const Instance& instance) {
+  std::vector<TransformD> keys;
+  if (instance.motion_transforms.empty()) return keys;
+  keys.emplace_back(instance.object_to_world);
+  for (const Transform& key : instance.motion_transforms) keys.emplace_back(key);
+  return keys;
+}
+
 std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::uint32_t index) {
   const PreparedScene::PreparedInstance& instance = scene.instances[index];
   EmissiveInstance result{.instance = index,
                           .shape = &scene.shapes[instance.shape],
                           .object_to_world = instance.placement.object_to_world,
                           .world_to_object = instance.placement.world_to_object,
+                          .motion = instance.motion,
                           .front = {},
                           .back = {}};
   bool shines = false;
@@ -133,7 +149,10 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   validate(scene);
 
   PreparedScene prepared;
-  prepared.view = CameraView(*scene.camera, {scene.settings.width, scene.settings.height});
+  const Vec2i film_size{scene.settings.width, scene.settings.height};
+  prepared.view = CameraView(*scene.camera, film_size);
+  prepared.moving_camera = MovingCamera(*scene.camera, film_size);
+  prepared.has_motion = prepared.moving_camera.is_moving();
   prepared.settings = scene.settings;
   prepared.textures = scene.textures;
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
@@ -150,6 +169,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     const auto default_index = static_cast<std::uint32_t>(prepared.materials.size() - 1);
     prepared.instances.push_back({.shape = instance.shape.index,
                                   .placement = placement,
+                                  .motion = motion_of(instance),
                                   .materials = resolve_materials(instance, default_index)});
     PreparedScene::PreparedInstance& added = prepared.instances.back();
     for (const std::uint32_t material : added.materials)
@@ -157,7 +177,10 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     traced.push_back({.shape = instance.shape.index,
                       .object_to_world = placement.object_to_world,
                       .world_to_object = placement.world_to_object,
-                      .visibility = instance.visibility});
+                      .visibility = instance.visibility,
+                      .motion = added.motion});
+    const auto* mesh = std::get_if<Mesh>(&prepared.shapes[instance.shape.index]);
+    prepared.has_motion = prepared.has_motion || !added.motion.empty() || (mesh && mesh->is_deforming());
   }
   for (const PreparedMaterial& prepared_material : prepared.materials)
     prepared.has_transparency = prepared.has_transparency || is_transparent(prepared_material.material);

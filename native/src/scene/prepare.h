@@ -21,11 +21,13 @@ struct PreparedScene {
   struct PreparedInstance {
     std::uint32_t shape = 0;
     Placement placement;
+    std::vector<TransformD> motion;        // object to world over time, instead of the placement; none: it stands still
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
     bool needs_derivatives = false;        // one of the materials does
   };
 
-  CameraView view;
+  CameraView view;             // of a camera that stands still
+  MovingCamera moving_camera;  // of one that moves
   RenderSettings settings;
   std::vector<Shape> shapes;
   std::vector<std::uint64_t> shape_revisions;
@@ -35,6 +37,7 @@ struct PreparedScene {
   Tracer tracer;
   LightSet lights;
   bool has_transparency = false;  // shadow rays must look at what they hit
+  bool has_motion = false;        // rays have a time
 
   [[nodiscard]] const PreparedMaterial& material_of(const SurfacePoint& point) const {
     const std::vector<std::uint32_t>& slots = instances[point.instance].materials;

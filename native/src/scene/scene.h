@@ -25,6 +25,9 @@ struct Instance {
   Transform object_to_world;
   std::vector<Id<Material>> materials;
   std::uint32_t visibility = ray_all;  // RayKind bits
+  // Object to world at further times: equally spaced, `object_to_world` being of time 0, the last of time 1. Between
+  // two of them matrices are linear.
+  std::vector<Transform> motion_transforms;
 };
 
 struct Scene {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "base/describe.h"
 #include "bvh/bvh.h"
@@ -37,6 +38,8 @@ struct RenderSettings {
   PassLayout passes;
   bool is_film_transparent = false;
   float exposure = 1;  // multiplies radiance
+  // How far the shutter is open at equally spaced times from 0 to 1, linear between them; none: wide open throughout.
+  std::vector<float> shutter_curve;
 
   IntegratorKind integrator = IntegratorKind::path;
   // Path: scatterings of each kind after which a path ends, counted as Blender does.
@@ -63,6 +66,8 @@ struct RenderSettings {
         field("sampler", &S::sampler, "how a pixel's samples are spread: evenly, or each by chance"),
         field("film_transparent", &S::is_film_transparent, "the background has alpha 0"),
         field("exposure", &S::exposure, "multiplies radiance", at_least(0)),
+        field("shutter_curve", &S::shutter_curve,
+              "how far the shutter is open at equally spaced times; none: wide open throughout", at_least(0)),
         field("integrator", &S::integrator, "how light is computed"),
         field("max_bounces", &S::max_bounces, "scatterings after which a path ends", within(0, 1024)),
         field("diffuse_bounces", &S::diffuse_bounces, "diffuse reflections after which a path ends", within(0, 1024)),

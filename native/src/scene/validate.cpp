@@ -16,7 +16,7 @@ namespace {
 // Beyond it, squares and products of lengths leave the range of floats.
 constexpr float largest_coordinate = 1e15f;
 
-std::string entry(const char* table, std::size_t index) {
+std::string entry(std::string_view table, std::size_t index) {
   return std::string(table) + "[" + std::to_string(index) + "]";
 }
 
@@ -44,7 +44,11 @@ template <Described Struct>
 void validate_described(const Struct& object, const std::string& item) {
   validate_fields(object, item);
   for_each_field<Struct>([&]<class Value>(const Field<Struct, Value>& field) {
-    if constexpr (std::same_as<Value, Transform>) validate_transform(object.*field.member, join_path(item, field.name));
+    const Value& value = object.*field.member;
+    if constexpr (std::same_as<Value, Transform>) validate_transform(value, join_path(item, field.name));
+    if constexpr (std::same_as<Value, std::vector<Transform>>)
+      for (std::size_t i = 0; i < value.size(); ++i)
+        validate_transform(value[i], join_path(item, entry(field.name, i)));
   });
 }
 
@@ -126,8 +130,13 @@ void validate_instances(const Scene& scene) {
     for (std::size_t slot = 0; slot < instance.materials.size(); ++slot)
       if (const Id<Material> id = instance.materials[slot]; id.is_valid())
         validate_id(id, scene.materials, item + "." + entry("materials", slot), "materials");
+    const Bounds3f& local = shape_bounds[instance.shape.index];
     validate_transform(instance.object_to_world, item + ".transform");
-    validate_reach(transform_bounds(instance.object_to_world, shape_bounds[instance.shape.index]), item);
+    validate_reach(transform_bounds(instance.object_to_world, local), item);
+    for (std::size_t key = 0; key < instance.motion_transforms.size(); ++key) {
+      validate_transform(instance.motion_transforms[key], item + "." + entry("motion_transforms", key));
+      validate_reach(transform_bounds(instance.motion_transforms[key], local), item);
+    }
   }
 }
 
@@ -161,10 +170,18 @@ void validate_border(const RenderSettings& settings) {
   check("border_height", settings.border_y, settings.border_height, settings.height);
 }
 
+void validate_shutter_curve(const std::vector<float>& curve) {
+  if (curve.size() == 1) throw SceneError("settings.shutter_curve", "must have at least two numbers or none, has 1");
+  const auto is_zero = [](float open) { return open == 0; };
+  if (!curve.empty() && std::ranges::all_of(curve, is_zero))
+    throw SceneError("settings.shutter_curve", "must not be 0 throughout: the shutter would never open");
+}
+
 void validate_settings(const RenderSettings& settings) {
   validate_described(settings, "settings");
   validate_described(settings.filter, "settings.filter");
   validate_border(settings);
+  validate_shutter_curve(settings.shutter_curve);
   if (settings.passes.mask >> passes.size()) throw SceneError("settings.passes", "names a pass that does not exist");
   if (!settings.passes.has(Pass::combined)) throw SceneError("settings.passes", "Combined must be among them");
 }

@@ -64,7 +64,10 @@ class EveryKernel : public testing::TestWithParam<const char*> {
     return tracer;
   }
   void expect_no_leak(const Mesh& mesh, const std::vector<Ray>& rays, const TransformD& transform = {}) const {
-    const Tracer tracer = make_tracer({mesh}, {test::place(0, transform)});
+    expect_no_leak(mesh, rays, test::place(0, transform));
+  }
+  void expect_no_leak(const Mesh& mesh, const std::vector<Ray>& rays, const TracedInstance& instance) const {
+    const Tracer tracer = make_tracer({mesh}, {instance});
     std::vector<Hit> hits(rays.size());
     std::vector<std::uint8_t> occluded(rays.size());
     tracer.intersect(rays, hits);
@@ -106,6 +109,52 @@ TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_under_a_transform) {
       ray.direction = Vec3f(transform.vector(Vec3d(ray.direction)));
     }
     expect_no_leak(mesh, rays, transform);
+  }
+}
+
+// A sphere that grows, is stretched and bent, and flies off by each of the shifts in turn.
+Mesh deforming_sphere(std::initializer_list<float> shifts) {
+  const Mesh sphere = closed_sphere(Vec3f(0), 1, 64, 32);
+  Mesh mesh = sphere;
+  for (const float shift : shifts) {
+    std::vector<Vec3f>& positions = mesh.motion_positions.emplace_back(sphere.positions);
+    for (Vec3f& p : positions) p = {2 * p.x + shift, p.y + 0.3f * p.x * p.x - shift, 0.5f * p.z + shift};
+  }
+  return mesh;
+}
+
+// From inside the mesh, as it is at the time.
+std::vector<Ray> rays_at_moving_borders(test::Random& rng, const Mesh& mesh, float time, int count) {
+  Mesh now = mesh;
+  for (std::uint32_t triangle = 0; triangle < now.triangles.size(); ++triangle)
+    for (int corner = 0; corner < 3; ++corner)
+      now.positions[now.triangles[triangle][corner]] = mesh.position_at(triangle, corner, time);
+  const Vec3f middle = (now.positions.front() + now.positions.back()) * 0.5f;  // of the poles
+  std::vector<Ray> rays = rays_at_borders(rng, now, middle, count);
+  for (Ray& ray : rays) ray.time = time;
+  return rays;
+}
+
+TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_that_deforms) {
+  test::Random rng(6);
+  const Mesh mesh = deforming_sphere({3, -100, 1e4f});
+  for (int i = 0; i < 20; ++i) expect_no_leak(mesh, rays_at_moving_borders(rng, mesh, test::random_time(rng), 3000));
+}
+
+TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_that_deforms_and_moves) {
+  test::Random rng(7);
+  const Mesh mesh = deforming_sphere({0.5f, -2});
+  for (int i = 0; i < 20; ++i) {
+    const float time = test::random_time(rng);
+    const std::vector<TransformD> keys{test::random_transform(rng), test::random_transform(rng)};
+    const TransformD transform = transform_at(keys, time);
+    if (std::abs(transform.determinant()) < 0.05) continue;  // all but flat: the origin may be rounded out of it
+    std::vector<Ray> rays = rays_at_moving_borders(rng, mesh, time, 3000);
+    for (Ray& ray : rays) {
+      ray.origin = Vec3f(transform.point(Vec3d(ray.origin)));
+      ray.direction = Vec3f(transform.vector(Vec3d(ray.direction)));
+    }
+    expect_no_leak(mesh, rays, test::place_moving(0, keys));
   }
 }
 
@@ -181,9 +230,15 @@ TEST_P(EveryKernel, gives_each_ray_the_same_answer_in_any_company) {
     shapes.push_back(shape);
   }
   instances.push_back(test::place(0, test::random_transform(rng)));
+  instances.push_back(test::place_moving(0, {test::random_transform(rng), test::random_transform(rng)}));
+  instances.push_back(test::place(static_cast<std::uint32_t>(shapes.size()), test::random_transform(rng)));
+  shapes.emplace_back(test::deforming(rng, test::soup(rng, 100, 0.4f), 2, 0.2f));
   const Tracer tracer = make_tracer(shapes, instances);
   std::vector<Ray> rays;
-  for (int i = 0; i < 1000; ++i) rays.push_back(test::random_ray(rng));
+  for (int i = 0; i < 1000; ++i) {
+    rays.push_back(test::random_ray(rng));
+    rays.back().time = test::random_time(rng);
+  }
   std::vector<Hit> together(rays.size());
   tracer.intersect(rays, together);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -205,9 +260,13 @@ TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone) {
     shapes.push_back(shape);
   }
   instances[3].visibility = ray_shadow;
+  instances.push_back(test::place_moving(0, {test::random_transform(rng), test::random_transform(rng)}));
+  instances.push_back(test::place_moving(2, {TransformD{}, test::random_transform(rng)}));
+  Mesh deforming = test::deforming(rng, test::flat_grid(4), 2, 0.3f);
+  const Tracer with_deforming = make_tracer({deforming, test::flat_grid(16)}, {test::place(0, {}), test::place(1, {})});
   const Tracer all_kinds = make_tracer(shapes, instances);
   const Tracer only_grid = make_tracer({test::flat_grid(16)}, {test::place(0, {})});
-  for (const Tracer* tracer : {&all_kinds, &only_grid}) {
+  for (const Tracer* tracer : {&all_kinds, &only_grid, &with_deforming}) {
     int hit_count = 0;
     for (int picture = 0; picture < 12; ++picture) {
       const Vec3f origin = test::random_point(rng, 3), target = test::random_point(rng, 0.3f);
@@ -220,6 +279,7 @@ TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone) {
         if (picture % 3 == 1) ray.direction = target - ray.origin;   // to one
         if (picture % 3 == 2)
           ray.direction = Vec3f{std::round(x) / 16, y / 16, 0} - origin;  // through corners of the grid
+        ray.time = picture % 2 == 0 ? 0.25f : test::uniform(rng, 0, 1);
         if (picture % 4 == 3) ray.t_max = 1 + test::uniform(rng, 0, 0.1f);
         rays.push_back(ray);
       }

@@ -133,6 +133,67 @@ TEST(Tracer, agrees_with_brute_force_on_instances_under_any_transform) {
   EXPECT_GT(compare_with_brute_force(shapes, instances, random_rays(rng, 2000), "instances"), 500);
 }
 
+std::vector<Ray> random_rays_over_time(test::Random& rng, int count) {
+  std::vector<Ray> rays = random_rays(rng, count);
+  for (Ray& ray : rays) ray.time = test::random_time(rng);
+  return rays;
+}
+
+TEST(Tracer, agrees_with_brute_force_on_instances_that_move) {
+  test::Random rng(10);
+  std::vector<Shape> shapes;
+  for (const auto& [name, shape] : test::shapes_of_every_kind(rng)) shapes.push_back(shape);
+  std::vector<TracedInstance> instances;
+  for (std::uint32_t shape = 0; shape < shapes.size(); ++shape)
+    for (const std::size_t keys : {2, 3, 5}) {
+      std::vector<TransformD> motion;
+      for (std::size_t key = 0; key < keys; ++key) motion.push_back(test::random_transform(rng));
+      instances.push_back(test::place_moving(shape, motion));
+    }
+  TransformD moved;
+  moved.rows[0][3] = 0.7;
+  instances.push_back(test::place_moving(0, {TransformD{}, moved}));
+  instances.push_back(test::place(1, test::random_transform(rng)));
+  EXPECT_GT(compare_with_brute_force(shapes, instances, random_rays_over_time(rng, 2000), "moving"), 500);
+}
+
+TEST(Tracer, agrees_with_brute_force_on_meshes_that_deform) {
+  test::Random rng(11);
+  for (const auto& [name, shape] : test::shapes_of_every_kind(rng)) {
+    const auto* mesh = std::get_if<Mesh>(&shape);
+    if (mesh == nullptr) continue;
+    const float reach = name == "denormal" ? 1e-40f : 0.3f;
+    const Mesh deforming = test::deforming(rng, *mesh, name == "flat grid" ? 4 : 1, reach);
+    std::vector<Ray> rays = random_rays_over_time(rng, 1500);
+    const int hits = compare_with_brute_force({deforming}, {test::place(0, {})}, rays, name);
+    EXPECT_GT(hits, name != "empty mesh" && name != "denormal" ? 30 : -1) << name;
+    const std::vector<TracedInstance> placed{
+        test::place(0, test::random_transform(rng)),
+        test::place_moving(0, {test::random_transform(rng), test::random_transform(rng)})};
+    compare_with_brute_force({deforming}, placed, rays, name + ", placed");
+  }
+}
+
+TEST(Tracer, finds_what_moves_only_where_it_is_at_the_ray_s_time) {
+  TransformD aside;
+  aside.rows[0][3] = 10;
+  Mesh grid = test::flat_grid(1);
+  std::vector<Vec3f> positions_aside = grid.positions;
+  for (Vec3f& position : positions_aside) position.x += 10;
+  Mesh deforming = grid;
+  deforming.motion_positions = {positions_aside};
+  const Tracer moving = test::make_tracer({grid}, {test::place_moving(0, {TransformD{}, aside})}, {});
+  const Tracer deformed = test::make_tracer({deforming}, {test::place(0, {})}, {});
+  for (const Tracer* tracer : {&moving, &deformed})
+    for (const float time : {0.0f, 0.25f, 0.5f, 0.9f, 1.0f})
+      for (int x = -2; x < 13; ++x) {
+        const Ray ray{.origin = {static_cast<float>(x) + 0.25f, 0.5f, 2}, .direction = {0, 0, -1}, .time = time};
+        Hit hit;
+        tracer->intersect(std::span(&ray, 1), std::span(&hit, 1));
+        EXPECT_EQ(hit.is_hit(), std::abs(ray.origin.x - 10 * time) < 1) << x << " at " << time;
+      }
+}
+
 TEST(Tracer, gives_the_lowest_instance_and_primitive_of_equally_near_hits) {
   test::Random rng(5);
   const Mesh mesh = test::coincident(rng, 40);

@@ -223,6 +223,25 @@ TEST(SceneJson, objects_share_shapes_and_have_materials_for_slots) {
   EXPECT_EQ(std::get<Mesh>(scene.shapes[0]).material_slots, std::vector<std::uint32_t>{1});
 }
 
+TEST(SceneJson, what_moves_has_keys_and_a_translation_moves_them_all) {
+  const Scene scene = scene_of(R"({
+    "settings": {"shutter_curve": [0, 1, 0.5]},
+    "camera": {"type": "orthographic", "motion_transforms": [[1, 0, 0, 3,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1]]},
+    "objects": [{"type": "mesh", "positions": [0, 0, 0, 1, 0, 0, 0, 1, 0], "triangles": [0, 1, 2],
+                 "motion_positions": [[0, 0, 1, 1, 0, 1, 0, 1, 1], [0, 0, 2, 1, 0, 2, 0, 1, 2]],
+                 "translate": [10, 0, 0],
+                 "motion_transforms": [[1, 0, 0, 1,  0, 1, 0, 2,  0, 0, 1, 3,  0, 0, 0, 1]]}]})");
+  EXPECT_EQ(scene.settings.shutter_curve, (std::vector<float>{0, 1, 0.5f}));
+  ASSERT_EQ(std::get<OrthographicCamera>(*scene.camera).motion_transforms.size(), 1u);
+  EXPECT_EQ(std::get<OrthographicCamera>(*scene.camera).motion_transforms[0].rows[0][3], 3);
+  ASSERT_EQ(scene.instances[0].motion_transforms.size(), 1u);
+  EXPECT_EQ(scene.instances[0].object_to_world.column(3), Vec3f(10, 0, 0));
+  EXPECT_EQ(scene.instances[0].motion_transforms[0].column(3), Vec3f(11, 2, 3));
+  const Mesh& mesh = std::get<Mesh>(scene.shapes[0]);
+  ASSERT_EQ(mesh.motion_positions.size(), 2u);
+  EXPECT_EQ(mesh.motion_positions[1][2], Vec3f(0, 1, 2));
+}
+
 TEST(SceneJson, an_obj_file_that_two_objects_name_is_read_once) {
   const TemporaryFolder folder;
   folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -52,6 +52,10 @@ Json value_schema(const Range& range) {
     return vector_schema(3, range);
   else if constexpr (std::same_as<Value, Transform>)
     return {{"$ref", "#/$defs/transform"}};
+  else if constexpr (std::same_as<Value, std::vector<Transform>>)
+    return {{"type", "array"}, {"items", {{"$ref", "#/$defs/transform"}}}};
+  else if constexpr (std::same_as<Value, std::vector<float>>)
+    return {{"type", "array"}, {"items", range_schema("number", range)}};
   else if constexpr (std::same_as<Value, ColorInput>)
     return {{"oneOf", {vector_schema(3, range), {{"description", "a texture's name"}, {"type", "string"}}}}};
   else

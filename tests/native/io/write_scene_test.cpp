@@ -21,12 +21,14 @@ Scene make_full_scene() {
   scene.settings.width = 123;
   scene.settings.seed = -9007199254740993;  // needs 54 bits
   scene.settings.exposure = 1.0f / 3;
+  scene.settings.shutter_curve = {0.1f, 1, 0};
   scene.settings.filter = {FilterKind::blackman_harris, 1.0f / 7};
   scene.settings.passes.enable(Pass::normal);
   scene.settings.bvh_builder = BvhBuilder::median;
   PerspectiveCamera camera;
   camera.to_world.rows = {{{0.1f, 0.2f, 0.3f, 1e-20f}, {-0.7f, 0.6f, 0.1f, 1e10f}, {0.3f, 0.3f, -0.9f, 1.0f / 3}}};
   camera.clip_near = 1e-45f;  // denormal
+  camera.motion_transforms = {camera.to_world, Transform{}};
   scene.camera = camera;
   scene.environment.radiance = {0.1f, 16777216.0f, 3e38f};
 
@@ -54,11 +56,14 @@ Scene make_full_scene() {
   scene.materials.append(Material{.name = "twin", .nodes = {GlassShader{}, DiffuseShader{}}, .surface = 0});
   scene.materials.append(Material{.name = "material1", .nodes = {}});
 
-  scene.shapes.append(Mesh{.positions = {{0.1f, 0, 0}, {1, 0, 1.0f / 3}, {0, 1, 0}},
-                           .triangles = {{0, 1, 2}},
-                           .corner_normals = {{0, 0, 1}, {0, 0.1f, 1}, {0, 0, 1}},
-                           .uvs = {{0, 0}, {0.1f, 0}, {0, 0.7f}},
-                           .material_slots = {3}});
+  scene.shapes.append(
+      Mesh{.positions = {{0.1f, 0, 0}, {1, 0, 1.0f / 3}, {0, 1, 0}},
+           .triangles = {{0, 1, 2}},
+           .corner_normals = {{0, 0, 1}, {0, 0.1f, 1}, {0, 0, 1}},
+           .uvs = {{0, 0}, {0.1f, 0}, {0, 0.7f}},
+           .material_slots = {3},
+           .motion_positions = {{{0.3f, 0, 0}, {1, 0, 1}, {0, 1, 0}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}},
+           .motion_corner_normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}}}});
   scene.shapes.append(Sphere{.center = {0.1f, 0.2f, 0.3f}, .radius = 0.7f});
   Transform transform;
   transform.rows[0] = {2, 0, 0.1f, -1};
@@ -66,7 +71,8 @@ Scene make_full_scene() {
                           .shape = {0},
                           .object_to_world = transform,
                           .materials = {{3}, {}, {2}, {1}, {4}, {0}},
-                          .visibility = ray_camera | ray_glossy});
+                          .visibility = ray_camera | ray_glossy,
+                          .motion_transforms = {Transform{}, transform}});
   scene.instances.append({.name = "", .shape = {1}, .object_to_world = {}, .materials = {}});
   scene.instances.append({.name = "unseen", .shape = {1}, .object_to_world = {}, .materials = {}, .visibility = 0});
 
@@ -99,6 +105,7 @@ TEST(WriteScene, tables_keep_their_order_and_names) {
     EXPECT_EQ(loaded.instances[i].materials, scene.instances[i].materials);
     EXPECT_EQ(loaded.instances[i].visibility, scene.instances[i].visibility);
     EXPECT_EQ(loaded.instances[i].object_to_world, scene.instances[i].object_to_world);
+    EXPECT_EQ(loaded.instances[i].motion_transforms, scene.instances[i].motion_transforms);
   }
   const auto &mesh = std::get<Mesh>(scene.shapes[0]), &loaded_mesh = std::get<Mesh>(loaded.shapes[0]);
   EXPECT_EQ(loaded_mesh.positions, mesh.positions);
@@ -106,12 +113,16 @@ TEST(WriteScene, tables_keep_their_order_and_names) {
   EXPECT_EQ(loaded_mesh.corner_normals, mesh.corner_normals);
   EXPECT_EQ(loaded_mesh.uvs, mesh.uvs);
   EXPECT_EQ(loaded_mesh.material_slots, mesh.material_slots);
+  EXPECT_EQ(loaded_mesh.motion_positions, mesh.motion_positions);
+  EXPECT_EQ(loaded_mesh.motion_corner_normals, mesh.motion_corner_normals);
   EXPECT_EQ(std::get<ImageTexture>(loaded.textures[2]).image.pixels,
             std::get<ImageTexture>(scene.textures[2]).image.pixels);
   EXPECT_EQ(loaded.settings.seed, scene.settings.seed);
+  EXPECT_EQ(loaded.settings.shutter_curve, scene.settings.shutter_curve);
   EXPECT_EQ(loaded.settings.passes, scene.settings.passes);
   const auto& camera = std::get<PerspectiveCamera>(*loaded.camera);
   EXPECT_EQ(camera.to_world, std::get<PerspectiveCamera>(*scene.camera).to_world);
+  EXPECT_EQ(camera.motion_transforms, std::get<PerspectiveCamera>(*scene.camera).motion_transforms);
   EXPECT_EQ(camera.clip_near, 1e-45f);
   EXPECT_EQ(camera.clip_far, infinity);
 }

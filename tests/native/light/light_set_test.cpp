@@ -86,23 +86,29 @@ void for_each_surface_hit(const EmissiveInstance& emitter, Vec3d origin, Vec3d d
   visit_at(near > 0 ? near : far, 0);
 }
 
-ChiSquareResult compare_with_density(const Scene& scene, Vec3f position) {
-  const LightSet lights = scene.lights();
+// `surfaces` are the emissive shapes, standing where they are at the time.
+ChiSquareResult compare_with_density(const LightSet& lights, const std::vector<EmissiveInstance>& surfaces,
+                                     Vec3f position, float time) {
   const auto sample = [&](Rng& rng) -> std::optional<Vec3f> {
     const float choice = next_unit_float(rng);
-    const auto s = lights.sample(position, choice, next_unit_vec2(rng));
+    const auto s = lights.sample(position, choice, next_unit_vec2(rng), time);
     if (!s) return std::nullopt;
     return s->wi;
   };
   const auto density = [&](Vec3f wi) {
     double sum = 0;
     lights.for_each_lamp_hit({.origin = position, .direction = wi}, [&](const LightHit& hit) { sum += hit.pdf; });
-    for (const EmissiveInstance& emitter : scene.emitters)
-      for_each_surface_hit(emitter, Vec3d(position), Vec3d(wi),
-                           [&](const SurfacePoint& point) { sum += lights.pdf_surface(point, position); });
+    for (const EmissiveInstance& surface : surfaces)
+      for_each_surface_hit(surface, Vec3d(position), Vec3d(wi), [&](SurfacePoint point) {
+        point.time = time;
+        sum += lights.pdf_surface(point, position);
+      });
     return sum;
   };
   return chi_square_sphere(sample, density, {.samples = 50000, .pilot_samples = 20000});
+}
+ChiSquareResult compare_with_density(const Scene& scene, Vec3f position) {
+  return compare_with_density(scene.lights(), scene.emitters, position, 0);
 }
 
 // In the first channel, on a surface that faces `normal`.
@@ -114,6 +120,30 @@ double irradiance(const LightSet& lights, Vec3f position, Vec3f normal, int n = 
       sum += double(sample->radiance.x) * std::max(0.0f, dot(sample->wi, normal)) / sample->pdf;
   });
   return sum / (double(n) * n);
+}
+
+TEST(LightSet, samples_of_shapes_that_move_follow_their_density_at_each_time) {
+  Rng rng(23);
+  const Mesh mesh = random_mesh(5, rng);
+  Mesh deforming = mesh;
+  std::vector<Vec3f>& end = deforming.motion_positions.emplace_back(mesh.positions);
+  for (Vec3f& position : end) position += Vec3f{0.5f, -1, 2};
+  const std::vector<TransformD> keys{TransformD{}, TransformD({{{0, -2, 0, 3}, {2, 0, 0, 0}, {0, 0, 2, 1}}})};
+  const std::vector<Color> front(3, Color(1.0f)), back(3, Color(0.5f));
+  Scene moving;
+  for (const Shape& shape : {Shape(deforming), Shape(Sphere{{1, 2, 3}, 0.5f})}) {
+    moving.add(shape, keys[0], front, back);
+    moving.emitters.back().motion = keys;
+  }
+  for (const float time : {0.0f, 0.3f, 1.0f}) {
+    Mesh now = mesh;
+    for (std::uint32_t i = 0; i < 15; ++i) now.positions[i] = deforming.position_at(i / 3, int(i % 3), time);
+    Scene still;
+    for (const Shape& shape : {Shape(now), Shape(Sphere{{1, 2, 3}, 0.5f})})
+      still.add(shape, transform_at(keys, time), front, back);
+    const auto result = compare_with_density(moving.lights(), still.emitters, {4, 3, -2}, time);
+    EXPECT_GT(result.p_value, sidak_threshold(3)) << time << ": " << result.describe();
+  }
 }
 
 TEST(LightSet, samples_of_triangles_of_any_size_follow_their_density) {

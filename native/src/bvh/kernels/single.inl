@@ -17,8 +17,10 @@ template <class Query>
 void walk_alone(const Steps<Query>& steps, std::size_t index, Slot& slot) {
   TreeReference next = steps.start(slot, index);
   while (next != end_of_ray) {
-    if (next < triangles_mark) {
+    if (next < moving_triangles_mark) {
       next = visit_node_alone<Query>(slot, slot.node(next));
+    } else if (next < triangles_mark) {
+      next = steps.test_moving(slot, next);
     } else if (next < instance_mark) {
       const TriangleBlock& block = slot.block(next);
       const TriangleHits hits = intersect_block(steps.scene, slot, block);

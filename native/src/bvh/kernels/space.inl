@@ -94,8 +94,13 @@ struct LocalRay {
   alignas(16) float origin[4], direction[4];
 };
 
-inline void transform(LocalRay& local, const KernelInstance& instance, const KernelRay& ray) {
-  const auto& m = instance.world_to_object;
+inline void transform(LocalRay& local, const KernelScene& scene, const KernelInstance& instance, const KernelRay& ray) {
+  const double (*m)[4] = instance.world_to_object;
+  double at_ray_time[3][4];
+  if (__builtin_expect(instance.space == KernelInstance::Space::moving, 0)) {
+    scene.world_to_object_at(instance, ray.time, at_ray_time);
+    m = at_ray_time;
+  }
   for (int i = 0; i < 3; ++i) {
     local.origin[i] = static_cast<float>(ray.origin[i] + m[i][3]);
     local.direction[i] = ray.direction[i];
@@ -120,7 +125,7 @@ inline bool enter_instance(BoxSpace& boxes, TriangleSpace& triangles, const Kern
   const float *origin = ray.origin, *direction = ray.direction;
   LocalRay local;
   if (instance.space != KernelInstance::Space::world) {
-    transform(local, instance, ray);
+    transform(local, scene, instance, ray);
     origin = local.origin;
     direction = local.direction;
   }
