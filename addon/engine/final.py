@@ -110,7 +110,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.update_stats("", "Exporting")
         b_camera = self.camera_override or depsgraph.scene.camera
         evaluated = b_camera.evaluated_get(depsgraph) if b_camera else None
-        self.exported = scene_sync.export(depsgraph, evaluated, self.warnings)
+        self.exported = scene_sync.export(depsgraph, evaluated, self.warnings, self.frame_set)
         show_warnings(self.warnings)
 
     def _trace(self, exported: Export, depsgraph: Any) -> None:

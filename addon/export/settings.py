@@ -13,6 +13,7 @@ from ..properties import settings_of
 from ..properties.choice import Choice
 from ..report import Report
 from .camera import resolution
+from .motion import shutter_curve
 
 # Native pass -> the view layer's switch; Combined has none, it is always made.
 _PASS_SWITCHES = {"Depth": "use_pass_z", "Normal": "use_pass_normal"}
@@ -80,11 +81,10 @@ def convert(
     settings.filter_type = chosen.filter_type.lower()
     settings.filter_radius = 0.5 if chosen.filter_type == "BOX" else chosen.filter_width
     settings.exposure = chosen.film_exposure
+    settings.shutter_curve = shutter_curve(b_render) if b_render.use_motion_blur else []
     settings.film_transparent = b_render.film_transparent
     settings.passes = [info.name for info in enabled_passes(b_view_layer)]
 
     item = f'scene "{b_scene.name}"'
-    if b_render.use_motion_blur:
-        report.warn(item, "motion blur is not supported: everything stands still")
     if b_render.use_multiview:
         report.warn(item, "stereoscopy is not supported: every view is the same")

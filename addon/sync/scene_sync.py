@@ -13,9 +13,10 @@ import numpy as np
 import basicrt
 
 from .. import compat
-from ..export import camera, light, material, mesh, settings, visibility, world
+from ..export import camera, light, material, mesh, motion, settings, visibility, world
 from ..export.identity import uid
 from ..report import ExportError, Report
+from .motion import FrameSet, MotionExport, set_frame
 
 # Kinds of objects that Blender would draw and BasicRT doesn't. (Curves, text and the like come as
 # meshes too.)
@@ -41,33 +42,71 @@ class Export:
 
 
 def export(
-    depsgraph: bpy.types.Depsgraph, b_camera: bpy.types.Object | None, report: Report
+    depsgraph: bpy.types.Depsgraph,
+    b_camera: bpy.types.Object | None,
+    report: Report,
+    frame_set: FrameSet | None = None,
 ) -> Export:
     """The scene that a view layer shows to an (evaluated) camera.
 
-    Raises ExportError, naming the culprit, where nothing can be rendered.
+    With motion blur it is evaluated at several frames by `frame_set`, and left at the one that it was
+    at; without that function everything stands still. Raises ExportError, naming the culprit, where
+    nothing can be rendered.
     """
-    b_scene: Any = depsgraph.scene_eval
-    b_view_layer: Any = depsgraph.view_layer_eval
+    b_scene: Any = depsgraph.scene
+    b_view_layer: Any = depsgraph.view_layer
     if b_camera is None:
         raise ExportError(f'scene "{b_scene.name}" has no camera: choose one in Scene > Camera')
+    shutter = motion.shutter(b_scene, b_view_layer)
     exported = Export()
+    if shutter is None or frame_set is None:
+        _fill(exported, depsgraph, b_camera, report, None)
+        return exported
+    frame = b_scene.frame_current_final
+    b_original: Any = b_camera.original
+    movement = MotionExport(exported.scene, shutter, report)
+    try:
+        if shutter.center != frame:
+            set_frame(frame_set, shutter.center)
+        _fill(exported, depsgraph, b_original.evaluated_get(depsgraph), report, movement)
+        movement.follow(depsgraph, b_original, frame_set)
+    finally:
+        set_frame(frame_set, frame)
+    return exported
+
+
+def _fill(
+    exported: Export,
+    depsgraph: bpy.types.Depsgraph,
+    b_camera: bpy.types.Object,
+    report: Report,
+    movement: MotionExport | None,
+) -> None:
+    """The scene as it is evaluated now; what may move is noted in `movement`."""
+    b_scene: Any = depsgraph.scene_eval
+    b_view_layer: Any = depsgraph.view_layer_eval
     scene = exported.scene
     settings.convert(b_scene, b_view_layer, scene.settings, report)
     scene.camera = camera.convert(b_camera, b_scene.render, report)
     scene.environment = world.convert(compat.view_layer_world(b_scene, b_view_layer), report)
-    _InstanceExport(exported, depsgraph, report).run()
-    return exported
+    _InstanceExport(exported, depsgraph, report, movement).run()
 
 
 class _InstanceExport:
     """Goes over the dependency graph once; what several instances share is converted once."""
 
-    def __init__(self, exported: Export, depsgraph: bpy.types.Depsgraph, report: Report) -> None:
+    def __init__(
+        self,
+        exported: Export,
+        depsgraph: bpy.types.Depsgraph,
+        report: Report,
+        movement: MotionExport | None,
+    ) -> None:
         self._scene = exported.scene
         self._names = exported.names
         self._depsgraph = depsgraph
         self._report = report
+        self._movement = movement
         self._shapes: dict[int, int | None] = {}
         self._materials: dict[int, int] = {}
         # By the numbers of an object and of what instances it, and by the mesh's key.
@@ -106,7 +145,7 @@ class _InstanceExport:
         if np.linalg.det(transform[:3, :3].astype(np.float32)) == 0.0:
             self._warn(b_object, "scaled to nothing along an axis: left out")
             return
-        self._scene.instances.append(
+        instance = self._scene.instances.append(
             basicrt.Instance(
                 shape=shape,
                 transform=transform,
@@ -115,6 +154,8 @@ class _InstanceExport:
                 visibility=self._visibility_of(b_instance, b_object),
             )
         )
+        if self._movement is not None:
+            self._movement.note(b_instance, self._depsgraph.scene_eval, instance, shape)
 
     def _shape_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> int | None:
         """The index of a mesh's shape, None where it has no faces."""

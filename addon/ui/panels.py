@@ -111,6 +111,26 @@ class BASICRT_RENDER_PT_film(_Panel, bpy.types.Panel):
         _draw(row, context, "filter_width")
 
 
+class BASICRT_RENDER_PT_motion_blur(_Panel, bpy.types.Panel):
+    """How long the shutter is open."""
+
+    bl_label = "Motion Blur"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context: Any) -> None:
+        """Blender's callback."""
+        self.layout.prop(context.scene.render, "use_motion_blur", text="")
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        render = context.scene.render
+        column.active = render.use_motion_blur
+        column.prop(render, "motion_blur_position", text="Position")
+        column.prop(render, "motion_blur_shutter")
+        column.template_curve_mapping(render, "motion_blur_shutter_curve")
+
+
 class BASICRT_RENDER_PT_performance(_Panel, bpy.types.Panel):
     """What changes the time, not the picture."""
 
@@ -229,6 +249,7 @@ _PANELS = (
     BASICRT_RENDER_PT_cycles,
     BASICRT_RENDER_PT_light_paths,
     BASICRT_RENDER_PT_film,
+    BASICRT_RENDER_PT_motion_blur,
     BASICRT_RENDER_PT_performance,
     BASICRT_RENDER_PT_warnings,
     BASICRT_VIEWLAYER_PT_passes,

@@ -14,7 +14,17 @@ import bpy
 import numpy as np
 import pytest
 
-from support.blender import render
+from support.blender import (
+    add_camera,
+    add_lamp,
+    add_mesh,
+    add_plane,
+    new_material,
+    new_scene,
+    render,
+    set_linear_keys,
+    set_world,
+)
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes" / "blender"
 SEEDS = 6
@@ -72,8 +82,13 @@ def test_demo_scene_is_as_in_cycles(name: str, percentage: int, tmp_path: Path) 
     scene.render.resolution_percentage = percentage
     scene.basicrt.samples = SAMPLES
     make_cycles_neutral(scene)
-    ours = render_seeds(scene, "BASICRT", tmp_path)
-    theirs = render_seeds(scene, "CYCLES", tmp_path)
+    expect_same_regions(scene, name, tmp_path)
+
+
+def expect_same_regions(scene: Any, name: str, folder: Path) -> None:
+    """Render with both engines and compare."""
+    ours = render_seeds(scene, "BASICRT", folder)
+    theirs = render_seeds(scene, "CYCLES", folder)
     difference = ours.mean(axis=0) - theirs.mean(axis=0)
     variance = ours.var(axis=0, ddof=1) + theirs.var(axis=0, ddof=1)
     # Caustics make seeds' scatter a poor estimate in single regions: not less than a quarter of the mean one.
@@ -86,3 +101,55 @@ def test_demo_scene_is_as_in_cycles(name: str, percentage: int, tmp_path: Path) 
         f"worst region {worst}: {difference[worst] / theirs.mean(axis=0)[worst]:+.2%}"
     )
     assert (np.abs(difference) <= tolerance).all(), f"region {worst} differs by {difference[worst]}"
+
+
+def move(made: Any, path: str, begin: Any, end: Any) -> None:
+    """Evenly, from one frame before the one that is rendered to one after it."""
+    for frame, value in ((9, begin), (11, end)):
+        setattr(made, path, value)
+        made.keyframe_insert(path, frame=frame)
+
+
+def add_moving_thing(kind: str) -> None:
+    """Something that casts a shadow on a floor, and shines on it."""
+    vertices = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 1.5)]
+    faces = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (3, 2, 1, 0)]
+    material = new_material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.3, 0.1))
+    pyramid = add_mesh(vertices, faces, material, "Pyramid", (0, 0, 0.3))
+    lamp = new_material("ShaderNodeEmission", "Lamp", Color=(0.2, 0.5, 1), Strength=3.0)
+    glowing = add_plane(0.6, 1.5, lamp, "Glowing")
+    glowing.location.x = -1.5
+    if kind == "object":
+        move(pyramid, "location", (-1.5, 0, 0.3), (1.5, 0.5, 0.6))
+        move(pyramid, "rotation_euler", (0, 0, 0), (0.3, 0, 2.5))
+        move(glowing, "location", (-2, -1, 1), (-1, 1.5, 2))
+    elif kind == "deforming":
+        for made, vertex, co in ((pyramid, 4, (2.5, 1, 2.5)), (glowing, 1, (2, -2, 1))):
+            made.shape_key_add(name="Basis")
+            block = made.shape_key_add(name="Moved")
+            block.data[vertex].co = co
+            move(block, "value", 0.0, 1.0)
+            set_linear_keys(made.data.shape_keys)
+    else:
+        camera = bpy.context.scene.camera
+        move(camera, "location", (0, -6, 5), (1.5, -5.5, 5.5))
+        move(camera, "rotation_euler", (0.9, 0, -0.1), (0.8, 0.1, 0.3))
+        set_linear_keys(camera)
+    for made in (pyramid, glowing):
+        set_linear_keys(made)
+
+
+@pytest.mark.parametrize("kind", ["object", "deforming", "camera"])
+@pytest.mark.parametrize(("position", "shutter"), [("CENTER", 1.0), ("START", 0.6)])
+def test_motion_is_as_in_cycles(kind: str, position: str, shutter: float, tmp_path: Path) -> None:
+    scene = new_scene(32, 32, SAMPLES)
+    add_camera((0, -6, 5), (0.9, 0, 0), "PERSP", lens=35)
+    add_plane(8, 0, new_material("ShaderNodeBsdfDiffuse", "Floor", Color=(0.6, 0.6, 0.6)))
+    add_lamp("AREA", (2, -1, 5), (0.2, 0.3, 0), energy=300, size=1)
+    set_world((0.1, 0.15, 0.3))
+    add_moving_thing(kind)
+    scene.render.use_motion_blur = True
+    scene.render.motion_blur_position, scene.render.motion_blur_shutter = position, shutter
+    scene.frame_set(10)
+    make_cycles_neutral(scene)
+    expect_same_regions(scene, f"{kind} {position}", tmp_path)

@@ -307,8 +307,6 @@ def test_scene_without_camera_is_refused() -> None:
 
 
 def test_what_cannot_be_drawn_is_reported_once() -> None:
-    scene = bpy.context.scene
-    scene.render.use_motion_blur = True
     add_triangle().is_holdout = True
     for _ in range(2):
         place(bpy.data.hair_curves.new("Hair"), name="Hair")
@@ -321,7 +319,6 @@ def test_what_cannot_be_drawn_is_reported_once() -> None:
         'object "Hair.001": hair curves are not supported: left out',
         'object "Smoke": volumes are not supported: left out',
         'object "Triangle": holdouts and shadow catchers are not supported: drawn as is',
-        'scene "Scene": motion blur is not supported: everything stands still',
     ]
 
 

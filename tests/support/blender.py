@@ -117,6 +117,25 @@ def new_material(bl_idname: str, name: str = "Material", **values: Any) -> Any:
     return material
 
 
+def set_linear_keys(made: Any) -> None:
+    """Between and beyond its keys what is animated changes evenly."""
+    for curve in _curves(made):
+        curve.extrapolation = "LINEAR"
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+
+
+def _curves(made: Any) -> list[Any]:
+    """The animation curves of a datablock; from 5.0 on they are in bags."""
+    if made.animation_data is None:
+        return []
+    action = made.animation_data.action
+    if hasattr(action, "fcurves"):
+        return list(action.fcurves)
+    strips = [strip for layer in action.layers for strip in layer.strips]
+    return [curve for strip in strips for bag in strip.channelbags for curve in bag.fcurves]
+
+
 def export(report: Report | None = None) -> basicrt.Scene:
     """The scene as the engine would export it."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
