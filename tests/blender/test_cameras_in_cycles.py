@@ -35,10 +35,10 @@ CYLINDER = {
     "central_cylindrical_radius": 0.5,
 }
 RANGE = {"latitude_min": -0.5, "latitude_max": 1.2, "longitude_min": -2, "longitude_max": 2.5}
+# Not the mirror ball: at its rim a pixel's fraction turns the view by any angle.
 PANORAMAS: dict[str, dict[str, Any]] = {
     "EQUIRECTANGULAR": RANGE,
     "EQUIANGULAR_CUBEMAP_FACE": {},
-    "MIRRORBALL": {},
     "FISHEYE_EQUIDISTANT": {"fisheye_fov": 2.5},
     "FISHEYE_EQUISOLID": {"fisheye_fov": 2.5, "fisheye_lens": 10.5, **SENSOR},
     "FISHEYE_LENS_POLYNOMIAL": {"fisheye_fov": 2.5, **POLYNOMIAL, **SENSOR},
