@@ -16,8 +16,10 @@ Hit make_hit(double t, std::uint32_t primitive, double u, double v) {
 }
 
 // Takes the nearest of a block's hits, of equal ones the lowest.
-void intersect_block(const TriangleBlock& block, PreciseRay& ray, std::optional<Hit>& nearest) {
+void intersect_block(const TriangleBlock& block, PreciseRay& ray, std::uint32_t skipped_primitive,
+                     std::optional<Hit>& nearest) {
   for (std::size_t lane = 0; lane < 4; ++lane) {
+    if (block.primitives[lane] == skipped_primitive) continue;
     const double t_max = ray.t_max;
     const auto hit =
         intersect_triangle(ray, corner_of(block, lane, 0), corner_of(block, lane, 1), corner_of(block, lane, 2));
@@ -30,7 +32,7 @@ void intersect_block(const TriangleBlock& block, PreciseRay& ray, std::optional<
 
 }  // namespace
 
-std::optional<Hit> intersect_mesh_precisely(const MeshTree& mesh, PreciseRay ray) {
+std::optional<Hit> intersect_mesh_precisely(const MeshTree& mesh, PreciseRay ray, std::uint32_t skipped_primitive) {
   std::optional<Hit> nearest;
   const BoxRay box_ray = make_box_ray(ray.origin, ray.direction);
   std::vector<TreeReference> waiting{mesh.tree.root};
@@ -39,7 +41,7 @@ std::optional<Hit> intersect_mesh_precisely(const MeshTree& mesh, PreciseRay ray
     waiting.pop_back();
     if (current == no_reference) continue;
     if (current >= triangles_mark) {
-      intersect_block(mesh.blocks[current & reference_index], ray, nearest);
+      intersect_block(mesh.blocks[current & reference_index], ray, skipped_primitive, nearest);
       continue;
     }
     const TreeNode& node = mesh.tree.nodes[current];

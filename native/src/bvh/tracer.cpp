@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "base/assert.h"
@@ -106,7 +107,8 @@ TransformD world_to_object(const KernelInstance& instance) {
 double plane_distance(const KernelInstance& instance, const KernelRay& ray, const float (&corners)[3][3]) {
   const auto corner = [&](int i) { return Vec3f{corners[i][0], corners[i][1], corners[i][2]}; };
   const PreciseRay local = transform_ray(world_to_object(instance), std::bit_cast<Ray>(ray));
-  return intersect_triangle_plane(local, corner(0), corner(1), corner(2)).t;
+  // No negative zero: which of two zeros is the smaller would be left to the instruction set.
+  return intersect_triangle_plane(local, corner(0), corner(1), corner(2)).t + 0.0;
 }
 
 }  // namespace
@@ -161,14 +163,22 @@ void Tracer::merge_small_meshes(std::span<const Bounds3f> boxes, const BvhConfig
   kernel_instances_.push_back(all);
 }
 
+// `instance` may be that of the merged meshes, behind all others.
 bool Tracer::intersect_precisely(std::uint32_t instance, const Ray& ray, Hit& hit) const {
-  const TracedInstance& placed = instances_[instance];
-  PreciseRay local = transform_ray(placed.world_to_object, ray);
+  PreciseRay local = transform_ray(world_to_object(kernel_instances_[instance]), ray);
   local.t_max = std::min(local.t_max, static_cast<double>(hit.t));
-  const auto found =
-      std::visit(Overloaded{[&](const MeshTree& mesh) { return intersect_mesh_precisely(mesh, local); },
-                            [&](const Sphere& sphere) { return intersect_sphere_precisely(sphere, local); }},
-                 trees_[placed.shape].geometry);
+  const bool is_merged = instance == instances_.size();
+  std::uint32_t skipped = Hit::none;
+  if (ray.from_instance == instance)
+    skipped = ray.from_primitive;
+  else if (const std::uint32_t from = ray.from_instance;
+           is_merged && from != Hit::none && kernel_instances_[from].first_merged != no_reference)
+    skipped = kernel_instances_[from].first_merged + ray.from_primitive;
+  const auto in_mesh = [&](const MeshTree& mesh) { return intersect_mesh_precisely(mesh, local, skipped); };
+  const auto on_sphere = [&](const Sphere& sphere) { return intersect_sphere_precisely(sphere, local); };
+  const std::optional<Hit> found =
+      is_merged ? in_mesh(merged_)
+                : std::visit(Overloaded{in_mesh, on_sphere}, trees_[instances_[instance].shape].geometry);
   if (!found) return false;
   hit = *found;
   hit.instance = instance;

@@ -170,6 +170,17 @@ TEST(MeshTree, is_the_same_for_any_number_of_threads) {
   }
 }
 
+TEST(InstanceTree, is_the_same_for_any_number_of_threads) {
+  test::Random rng(24);
+  const std::vector<Bounds3f> boxes = boxes_of(test::soup(rng, 40000, 0.05f));
+  for (const BvhBuilder builder : builders) {
+    const NodeTree one = build_instance_tree(boxes, {.builder = builder, .threads = 1});
+    for (const int threads : {2, 5})
+      EXPECT_TRUE(
+          is_same_memory(one.nodes, build_instance_tree(boxes, {.builder = builder, .threads = threads}).nodes));
+  }
+}
+
 TEST(MeshTree, sah_trees_cost_less_than_median_trees) {
   test::Random rng(13);
   Mesh uneven = test::soup(rng, 2000, 0.01f);

@@ -53,7 +53,8 @@ inline bool is_usable_for_triangles(Float4 origin, Float4 direction) {
   const Float4 largest = Float4::all(largest_usable);
   const Mask4 is_small = (abs(origin) <= largest) & (abs(direction) <= largest);
   const Mask4 is_large = Float4::all(smallest_usable) <= abs(direction);
-  return ((is_small.bits() & 7) == 7) & ((is_large.bits() & 7) != 0);
+  const unsigned small = is_small.bits() & 7, large = is_large.bits() & 7;
+  return (small == 7) & (large != 0);
 }
 
 // Axes keep their handedness, so that all triangles of an instance are seen from the same side.
