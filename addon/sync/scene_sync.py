@@ -15,6 +15,7 @@ import basicrt
 from .. import compat
 from ..export import camera, light, material, mesh, settings, visibility, world
 from ..export.identity import uid
+from ..nodes import Textures
 from ..report import ExportError, Report
 
 # Kinds of objects that Blender would draw and BasicRT doesn't. (Curves, text and the like come as
@@ -55,19 +56,28 @@ def export(
     scene = exported.scene
     settings.convert(b_scene, b_view_layer, scene.settings, report)
     scene.camera = camera.convert(b_camera, b_scene.render, report)
-    scene.environment = world.convert(compat.view_layer_world(b_scene, b_view_layer), report)
-    _InstanceExport(exported, depsgraph, report).run()
+    textures = Textures(scene)
+    b_world = compat.view_layer_world(b_scene, b_view_layer)
+    scene.environment = world.convert(b_world, report, textures)
+    _InstanceExport(exported, depsgraph, report, textures).run()
     return exported
 
 
 class _InstanceExport:
     """Goes over the dependency graph once; what several instances share is converted once."""
 
-    def __init__(self, exported: Export, depsgraph: bpy.types.Depsgraph, report: Report) -> None:
+    def __init__(
+        self,
+        exported: Export,
+        depsgraph: bpy.types.Depsgraph,
+        report: Report,
+        textures: Textures,
+    ) -> None:
         self._scene = exported.scene
         self._names = exported.names
         self._depsgraph = depsgraph
         self._report = report
+        self._textures = textures
         self._shapes: dict[int, int | None] = {}
         self._materials: dict[int, int] = {}
         # By the numbers of an object and of what instances it, and by the mesh's key.
@@ -153,7 +163,7 @@ class _InstanceExport:
             return None
         key = uid(b_material)
         if key not in self._materials:
-            converted = material.convert(b_material, self._report)
+            converted = material.convert(b_material, self._report, self._textures)
             self._names["materials"].append(f'material "{b_material.name}"')
             self._materials[key] = self._scene.materials.append(converted)
         return self._materials[key]

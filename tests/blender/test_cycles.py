@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 import pytest
 
-from support.blender import render
+from support.blender import make_cycles_neutral, render
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes" / "blender"
 SEEDS = 6
@@ -27,21 +27,6 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(bpy.app.version[:2] != (5, 0), reason="compared in one version: 5.0"),
 ]
-
-
-def make_cycles_neutral(scene: Any) -> None:
-    cycles, own = scene.cycles, scene.basicrt
-    cycles.device = "CPU"
-    cycles.samples = SAMPLES
-    cycles.use_adaptive_sampling = cycles.use_denoising = False
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
-    cycles.max_bounces, cycles.diffuse_bounces = own.max_bounces, own.diffuse_bounces
-    cycles.glossy_bounces = own.glossy_bounces
-    cycles.transmission_bounces = own.transmission_bounces
-    cycles.transparent_max_bounces = own.transparent_bounces
-    cycles.pixel_filter_type, cycles.filter_width = own.filter_type, own.filter_width
-    for made in scene.objects:
-        made.shadow_terminator_geometry_offset = made.shadow_terminator_shading_offset = 0
 
 
 def region_means(picture: np.ndarray) -> np.ndarray:

@@ -276,28 +276,17 @@ def test_world_without_nodes_has_its_viewport_colour() -> None:
     assert export().environment.radiance == (0.25, 0.5, 0.75)
 
 
-def test_environment_texture_is_reported() -> None:
-    world = set_world((0.25, 0.5, 1))
-    tree = world.node_tree
-    background = next(node for node in tree.nodes if node.type == "BACKGROUND")
-    tree.links.new(tree.nodes.new("ShaderNodeTexEnvironment").outputs[0], background.inputs[0])
-    report = Report()
-    assert export(report).environment.radiance == (0.25, 0.5, 1)
-    assert report.warnings == (
-        'world "World": node "Background": Color is linked to "Environment Texture", which is not '
-        "supported: its own value is used",
-    )
-
-
 def test_world_shader_that_is_no_light_is_black() -> None:
     world = set_world((1, 1, 1))
     tree = world.node_tree
     output = next(node for node in tree.nodes if node.type == "OUTPUT_WORLD")
-    mix = add_node(tree, "ShaderNodeMixShader")
-    tree.links.new(mix.outputs[0], output.inputs[0])
+    diffuse = add_node(tree, "ShaderNodeBsdfDiffuse")
+    tree.links.new(diffuse.outputs[0], output.inputs[0])
     report = Report()
     assert export(report).environment.radiance == (0, 0, 0)
-    assert report.warnings == ('world "World": node "Mix Shader" is not supported: black instead',)
+    assert report.warnings == (
+        'world "World": node "Diffuse BSDF" is not supported: black instead',
+    )
 
 
 def test_scene_without_camera_is_refused() -> None:

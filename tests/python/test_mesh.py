@@ -168,10 +168,47 @@ def test_views_are_read_only_and_keep_the_mesh_alive() -> None:
 
 def test_an_image_comes_back_as_it_went_in() -> None:
     pixels = np.random.default_rng(3).random((4, 5, 3)).astype(np.float32)
-    texture = basicrt.ImageTexture(pixels)
-    assert np.array_equal(texture.pixels, pixels)
-    assert not texture.pixels.flags.writeable
-    assert repr(texture) == "<ImageTexture of 5 x 4 pixels>"
+    image = basicrt.Image(pixels)
+    assert np.array_equal(image.pixels, pixels)
+    assert not image.pixels.flags.writeable
+    assert repr(image) == "<Image of 5 x 4 pixels>"
+
+
+def test_bytes_stay_bytes() -> None:
+    pixels = np.arange(60, dtype=np.uint8).reshape(4, 5, 3)
+    image = basicrt.Image(pixels, "linear")
+    assert image.pixels.dtype == np.uint8
+    assert np.array_equal(image.pixels, pixels)
+    assert image.encoding == "linear"
+    assert basicrt.Image(pixels[::-1, :, ::-1]).encoding == "srgb"
+    assert np.array_equal(basicrt.Image(pixels[::-1, :, ::-1]).pixels, pixels[::-1, :, ::-1])
+
+
+def test_textures_share_an_image() -> None:
+    image = basicrt.Image(np.zeros((2, 2, 3)))
+    textures = [basicrt.ImageTexture(image), basicrt.ImageTexture(image, extension="clip")]
+    addresses = {t.image.pixels.__array_interface__["data"][0] for t in textures}
+    assert addresses == {image.pixels.__array_interface__["data"][0]}
+
+
+def test_a_texture_takes_pixels_for_an_image() -> None:
+    pixels = np.random.default_rng(3).random((4, 5, 3)).astype(np.float32)
+    assert np.array_equal(basicrt.ImageTexture(pixels).image.pixels, pixels)
+
+
+def test_environment_layers_hold_images() -> None:
+    environment = basicrt.Environment(layers=[basicrt.EnvironmentLayer((1, 2, 3))])
+    image = basicrt.Image(np.ones((2, 4, 3)))
+    environment.layers = [
+        *environment.layers,
+        basicrt.EnvironmentLayer(image=image, projection="mirror_ball", seen_by="camera"),
+    ]
+    plain, picture = environment.layers
+    assert plain.image is None
+    assert plain.radiance == (1, 2, 3)
+    assert picture.image is not None
+    assert picture.image.pixels.shape == (2, 4, 3)
+    assert (picture.projection, picture.seen_by) == ("mirror_ball", "camera")
 
 
 @pytest.mark.parametrize(
@@ -181,6 +218,8 @@ def test_an_image_comes_back_as_it_went_in() -> None:
         (np.zeros((4, 5, 5)), "pixels: must have 1 to 4 channels, has 5"),
         (np.zeros((0, 5, 3)), "pixels: must not be empty"),
         (np.full((1, 1, 1), np.nan), r"pixels\[0, 0, 0\]: must be a finite number"),
+        (np.zeros((4, 5), np.uint8), r"pixels: must have the shape \(N, N, N\), has 2 dimensions"),
+        (np.zeros((4, 5, 5), np.uint8), "pixels: must have 1 to 4 channels, has 5"),
     ],
 )
 def test_bad_images_are_refused(pixels, message: str) -> None:

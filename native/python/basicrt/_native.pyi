@@ -22,12 +22,14 @@ __all__: list[str] = [
     "DiffuseShader",
     "EmissionShader",
     "Environment",
+    "EnvironmentLayer",
     "EquirectangularCamera",
     "FisheyeEquidistantCamera",
     "FisheyeEquisolidCamera",
     "FisheyePolynomialCamera",
     "GlassShader",
     "GlossyShader",
+    "Image",
     "ImageTexture",
     "Instance",
     "InstanceTable",
@@ -148,12 +150,17 @@ class Sphere:
 
 class TextureRef:
     """
-    Stands for Scene.textures[index] where a colour may vary.
+    Stands for Scene.textures[index] where a colour or a share may vary. As a share it is the
+    texture's luminance or, with `alpha`, its alpha.
     """
     def __eq__(self, arg0: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
-    def __init__(self, index: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __init__(
+        self, index: typing.SupportsInt | typing.SupportsIndex, alpha: bool = False
+    ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def alpha(self) -> bool: ...
     @property
     def index(self) -> int: ...
 
@@ -221,19 +228,80 @@ class CheckerboardTexture:
     @scale.setter
     def scale(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
 
-class ImageTexture:
+class Image:
     """
-    A picture over uv, bilinear and repeated.
+    A picture, which textures and the environment share.
 
-    pixels: (height, width, 1 to 4) float32, scene-linear, row 0 at the bottom. Copied.
+    pixels: (height, width, 1 to 4), row 0 at the bottom: float32, scene-linear; or uint8, where 255
+    is 1, as `encoding` says: "srgb" or "linear". Copied.
     """
-    def __init__(self, pixels: numpy.typing.ArrayLike) -> None: ...
+    def __init__(self, pixels: numpy.typing.ArrayLike, encoding: str = "srgb") -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def pixels(self) -> numpy.typing.NDArray[numpy.float32]:
+    def encoding(self) -> str:
         """
-        (height, width, channels) float32, scene-linear, row 0 at the bottom; read-only
+        what uint8 pixels mean
         """
+    @property
+    def pixels(self) -> typing.Any:
+        """
+        (height, width, channels), row 0 at the bottom: float32 or uint8; read-only
+        """
+
+class ImageTexture:
+    """
+    A picture over uv.
+
+    image: an Image, or its pixels
+    interpolation: between pixels: linear, closest or cubic
+    extension: beyond the edges: repeat, extend, clip or mirror
+    uv_transform: of (u, v, 0), before the image is looked up
+    divide_by_alpha: divides the colour by alpha, where the image's is multiplied by it
+    """
+    def __init__(
+        self,
+        image: Image | numpy.typing.ArrayLike = ...,
+        interpolation: str = "linear",
+        extension: str = "repeat",
+        uv_transform: numpy.typing.ArrayLike = ...,
+        divide_by_alpha: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def divide_by_alpha(self) -> bool:
+        """
+        divides the colour by alpha, where the image's is multiplied by it
+        """
+    @divide_by_alpha.setter
+    def divide_by_alpha(self, value: bool) -> None: ...
+    @property
+    def extension(self) -> str:
+        """
+        beyond the edges: repeat, extend, clip or mirror
+        """
+    @extension.setter
+    def extension(self, value: str) -> None: ...
+    @property
+    def image(self) -> Image:
+        """
+        an Image, or its pixels
+        """
+    @image.setter
+    def image(self, value: Image | numpy.typing.ArrayLike) -> None: ...
+    @property
+    def interpolation(self) -> str:
+        """
+        between pixels: linear, closest or cubic
+        """
+    @interpolation.setter
+    def interpolation(self, value: str) -> None: ...
+    @property
+    def uv_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        of (u, v, 0), before the image is looked up
+        """
+    @uv_transform.setter
+    def uv_transform(self, value: numpy.typing.ArrayLike) -> None: ...
 
 class DiffuseShader:
     """
@@ -546,20 +614,35 @@ class EmissionShader:
 
     radiance: W / (m^2 sr), each direction alike; at least 0
     twosided: whether the back emits too
+    strength: multiplies the radiance; at least 0
     """
     def __init__(
         self,
-        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
         twosided: bool = True,
+        strength: float = 1.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def radiance(self) -> tuple[float, float, float]:
+    def radiance(self) -> tuple[float, float, float] | TextureRef:
         """
         W / (m^2 sr), each direction alike; at least 0
         """
     @radiance.setter
-    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    def radiance(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def strength(self) -> float:
+        """
+        multiplies the radiance; at least 0
+        """
+    @strength.setter
+    def strength(self, value: float) -> None: ...
     @property
     def twosided(self) -> bool:
         """
@@ -579,6 +662,7 @@ class PrincipledShader:
     transmission: how much of the dielectric is glass; in [0, 1]
     specular_ior_level: 0.5 leaves the index's reflectance as it is; in [0, 1]
     emission: W / (m^2 sr), both sides; at least 0
+    emission_strength: multiplies the emission; at least 0
     alpha: opacity; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
     """
@@ -594,18 +678,23 @@ class PrincipledShader:
         ior: float = 1.5,
         transmission: float = 0.0,
         specular_ior_level: float = 0.5,
-        emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
-        alpha: float = 1.0,
+        emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.0,
+            0.0,
+            0.0,
+        ),
+        emission_strength: float = 1.0,
+        alpha: float | TextureRef = 1.0,
         distribution: str = "multi_ggx",
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def alpha(self) -> float:
+    def alpha(self) -> float | TextureRef:
         """
         opacity; in [0, 1]
         """
     @alpha.setter
-    def alpha(self, value: float) -> None: ...
+    def alpha(self, value: float | TextureRef) -> None: ...
     @property
     def base_color(self) -> tuple[float, float, float] | TextureRef:
         """
@@ -623,12 +712,21 @@ class PrincipledShader:
     @distribution.setter
     def distribution(self, value: str) -> None: ...
     @property
-    def emission(self) -> tuple[float, float, float]:
+    def emission(self) -> tuple[float, float, float] | TextureRef:
         """
         W / (m^2 sr), both sides; at least 0
         """
     @emission.setter
-    def emission(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    def emission(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def emission_strength(self) -> float:
+        """
+        multiplies the emission; at least 0
+        """
+    @emission_strength.setter
+    def emission_strength(self, value: float) -> None: ...
     @property
     def ior(self) -> float:
         """
@@ -674,16 +772,16 @@ class MixShader:
     second: a node made before this one
     """
     def __init__(
-        self, factor: float = 0.5, first: int | None = None, second: int | None = None
+        self, factor: float | TextureRef = 0.5, first: int | None = None, second: int | None = None
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def factor(self) -> float:
+    def factor(self) -> float | TextureRef:
         """
         0 is all the first, 1 all the second; in [0, 1]
         """
     @factor.setter
-    def factor(self, value: float) -> None: ...
+    def factor(self, value: float | TextureRef) -> None: ...
     @property
     def first(self) -> int | None:
         """
@@ -1010,16 +1108,90 @@ class AreaLight:
     @transform.setter
     def transform(self, value: numpy.typing.ArrayLike) -> None: ...
 
+class EnvironmentLayer:
+    """
+    A picture around the scene, or the same from everywhere.
+
+    radiance: W / (m^2 sr); multiplies the image where there is one; at least 0
+    image: an Image; None is the same from everywhere
+    projection: of the image: equirectangular or mirror_ball
+    interpolation: between pixels: linear, closest or cubic
+    transform: of a direction, as a point, before the image is looked up
+    seen_by: which rays see it: all, those from the camera, or those that have scattered
+    """
+    def __init__(
+        self,
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        image: Image | None = None,
+        projection: str = "equirectangular",
+        interpolation: str = "linear",
+        transform: numpy.typing.ArrayLike = ...,
+        seen_by: str = "all",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def image(self) -> Image | None:
+        """
+        an Image; None is the same from everywhere
+        """
+    @image.setter
+    def image(self, value: Image | None) -> None: ...
+    @property
+    def interpolation(self) -> str:
+        """
+        between pixels: linear, closest or cubic
+        """
+    @interpolation.setter
+    def interpolation(self, value: str) -> None: ...
+    @property
+    def projection(self) -> str:
+        """
+        of the image: equirectangular or mirror_ball
+        """
+    @projection.setter
+    def projection(self, value: str) -> None: ...
+    @property
+    def radiance(self) -> tuple[float, float, float]:
+        """
+        W / (m^2 sr); multiplies the image where there is one; at least 0
+        """
+    @radiance.setter
+    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    @property
+    def seen_by(self) -> str:
+        """
+        which rays see it: all, those from the camera, or those that have scattered
+        """
+    @seen_by.setter
+    def seen_by(self, value: str) -> None: ...
+    @property
+    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        of a direction, as a point, before the image is looked up
+        """
+    @transform.setter
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+
 class Environment:
     """
     What a ray sees that hits nothing.
 
     radiance: W / (m^2 sr), each direction alike; at least 0
+    layers: EnvironmentLayers, added up; reading gives a copy, assign to change them
     """
     def __init__(
-        self, radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0)
+        self,
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        layers: collections.abc.Iterable[EnvironmentLayer] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def layers(self) -> list[EnvironmentLayer]:
+        """
+        EnvironmentLayers, added up; reading gives a copy, assign to change them
+        """
+    @layers.setter
+    def layers(self, value: collections.abc.Iterable[EnvironmentLayer]) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """

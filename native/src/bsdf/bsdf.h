@@ -171,7 +171,8 @@ struct SurfaceShading {
 // Whether shade() looks at the point's dpdu and so on: add_derivatives() first.
 [[nodiscard]] bool needs_derivatives(const Material& material);
 
-// What the front (where the normal points) or the back of a surface emits, in every direction alike.
+// What the front (where the normal points) or the back of a surface emits, in every direction alike. Black where it is
+// not the same at every point: such light is found by rays alone.
 enum class SurfaceSide : std::uint8_t { front, back };
 [[nodiscard]] Color emitted_radiance(const Material& material, SurfaceSide side);
 [[nodiscard]] bool is_emissive(const Material& material);

@@ -69,7 +69,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     PixelSample& sample = samples[path.sample];
     if (!hit.is_hit()) {
       gather_lamps(path, ray, sample);
-      gather_environment(path, sample);
+      gather_environment(path, ray, sample);
       continue;
     }
 
@@ -97,13 +97,16 @@ void PathIntegrator::gather_lamps(const Path& path, const Ray& ray, PixelSample&
   });
 }
 
-void PathIntegrator::gather_environment(const Path& path, PixelSample& sample) const {
+void PathIntegrator::gather_environment(const Path& path, const Ray& ray, PixelSample& sample) const {
   if (path.is_camera_ray && scene_.settings.is_film_transparent) {
     sample.alpha = 1 - std::min(average(path.throughput), 1.0f);
     return;
   }
-  const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_environment());
-  sample.radiance += path.throughput * scene_.lights.environment().radiance * weight;
+  const Color radiance = scene_.lights.environment_radiance(ray.direction, path.is_camera_ray);
+  if (is_black(radiance)) return;
+  const float weight =
+      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_environment(ray.direction));
+  sample.radiance += path.throughput * radiance * weight;
 }
 
 void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,

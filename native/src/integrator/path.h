@@ -45,7 +45,7 @@ class PathIntegrator final : public Integrator {
 
   // `ray` is the one that the path came by, up to the surface.
   void gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const;
-  void gather_environment(const Path& path, PixelSample& sample) const;
+  void gather_environment(const Path& path, const Ray& ray, PixelSample& sample) const;
   void gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
                        PixelSample& sample) const;
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf);

@@ -98,10 +98,12 @@ Image read_exr(const std::filesystem::path& path) {
     file.readPixels(window.min.y, window.max.y);
 
     image.channels = static_cast<int>(planes.size());
+    std::vector<float> pixels;
     for (int y = image.height - 1; y >= 0; --y)
       for (int x = 0; x < image.width; ++x)
         for (const std::vector<float>& plane : planes)
-          image.pixels.push_back(plane[static_cast<std::size_t>(y) * image.width + x]);
+          pixels.push_back(plane[static_cast<std::size_t>(y) * image.width + x]);
+    image.pixels = std::move(pixels);
     return image;
   } catch (const SceneError&) {
     throw;

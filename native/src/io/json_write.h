@@ -31,10 +31,11 @@ template <class Enum>
 }
 
 // One flat array.
-template <class T>
-[[nodiscard]] Json write_array(const std::vector<T>& values) {
+template <class Array>
+[[nodiscard]] Json write_array(const Array& values) {
   Json json = Json::array();
-  for (const T& value : values) {
+  for (const auto& value : values) {
+    using T = std::remove_cvref_t<decltype(value)>;
     if constexpr (std::is_scalar_v<T>)
       json.push_back(write(value));
     else if constexpr (requires { value.size(); })

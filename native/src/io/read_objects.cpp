@@ -73,7 +73,9 @@ void read_area_light(SceneReader& reader, const JsonValue& light, std::vector<Id
   light.check_keys(std::array<std::string_view, 2>{"type", "radiance"});
   (void)read_choice(light.require("type"), std::array<std::string_view, 1>{"area"}, "light");
   EmissionShader emission{.is_two_sided = false};
-  read_field(light.require("radiance"), emission, &EmissionShader::radiance);
+  const JsonValue radiance = light.require("radiance");
+  read(radiance, emission.radiance.constant);
+  validate_field(emission.radiance, at_least(0), radiance.path(), "");
   if (slots.empty()) slots.emplace_back();
   for (Id<Material>& slot : slots) slot = append_emissive(reader, slot, emission);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lights are chosen by their power; the environment, being the same everywhere, is left to BSDF sampling: that follows
-// the cosine and the lobes, which is all that varies.
+// The environment's pictures or one of the other lights; those are chosen by their power.
 #include "light/light_set.h"
 
 #include <algorithm>
@@ -36,11 +35,27 @@ std::vector<double> choice_weights(std::vector<double> powers) {
   return powers;
 }
 
+double total_power(const std::vector<double>& powers) {
+  double total = 0;
+  for (const double power : powers) total += std::min<double>(power, std::numeric_limits<float>::max());
+  return total;
+}
+
+// How often the environment is chosen, where all other lights together have some power: by the two's powers, but
+// neither too seldom, for what arrives at a point may be very different from what the whole scene receives.
+float environment_share(const EnvironmentSampler& environment, float scene_radius, double other_power) {
+  if (environment.is_empty()) return 0;
+  if (!(other_power > 0)) return 1;
+  constexpr double least_share = 0.25;
+  const double power = environment.power(scene_radius);
+  return static_cast<float>(least_share + (1 - 2 * least_share) * power / (power + other_power));
+}
+
 }  // namespace
 
-LightSet::LightSet(std::vector<Light> lamps, std::vector<EmissiveInstance> emitters, const Environment& environment,
+LightSet::LightSet(std::vector<Light> lamps, std::vector<EmissiveInstance> emitters, EnvironmentSampler environment,
                    const Bounds3f& scene_bounds)
-    : lamps_(std::move(lamps)), environment_(environment) {
+    : lamps_(std::move(lamps)), environment_(std::move(environment)) {
   std::vector<double> powers;
   const float scene_radius = radius_of(scene_bounds);
   for (std::uint32_t i = 0; i < lamps_.size(); ++i) {
@@ -58,11 +73,24 @@ LightSet::LightSet(std::vector<Light> lamps, std::vector<EmissiveInstance> emitt
                *instance.shape);
     powers.push_back(std::visit([](const auto& emitter) { return emitter.power(); }, emitters_.back()));
   }
+  environment_share_ = environment_share(environment_, scene_radius, total_power(powers));
   choices_ = DiscreteDistribution(choice_weights(std::move(powers)));
 }
 
 std::optional<LightSample> LightSet::sample(Vec3f position, float choice, Vec2f u) const {
   if (is_empty()) return std::nullopt;
+  const bool is_environment = choice < environment_share_;
+  const float share = is_environment ? environment_share_ : 1 - environment_share_;
+  const float rest = std::min((is_environment ? choice : choice - environment_share_) / share, one_minus_epsilon);
+  std::optional<LightSample> sample =
+      is_environment ? environment_.sample(rest, u) : sample_lamp_or_emitter(position, rest, u);
+  if (!sample) return std::nullopt;
+  sample->pdf *= share;
+  if (!(sample->pdf > 0 && sample->pdf < infinity) || is_black(sample->radiance)) return std::nullopt;
+  return sample;
+}
+
+std::optional<LightSample> LightSet::sample_lamp_or_emitter(Vec3f position, float choice, Vec2f u) const {
   const auto [light, probability, remainder] = choices_.choose(choice);
   std::optional<LightSample> sample;
   if (light < lamps_.size()) {
@@ -73,9 +101,7 @@ std::optional<LightSample> LightSet::sample(Vec3f position, float choice, Vec2f 
                                    [&](const SphereEmitter& sphere) { return sphere.sample(position, u); }},
                         emitter);
   }
-  if (!sample) return std::nullopt;
-  sample->pdf *= static_cast<float>(probability);
-  if (!(sample->pdf > 0 && sample->pdf < infinity) || is_black(sample->radiance)) return std::nullopt;
+  if (sample) sample->pdf *= static_cast<float>(probability);
   return sample;
 }
 
@@ -88,10 +114,8 @@ float LightSet::pdf_surface(const SurfacePoint& point, Vec3f origin) const {
                             [&](const SphereEmitter& sphere) { return sphere.pdf(point.position, origin); }},
                  emitters_[index]);
   const double probability = choices_.probability(static_cast<std::uint32_t>(lamps_.size()) + index);
-  const auto result = static_cast<float>(pdf * probability);
+  const auto result = (1 - environment_share_) * static_cast<float>(pdf * probability);
   return result < infinity ? result : 0;
 }
-
-float LightSet::pdf_environment() const { return 0; }
 
 }  // namespace basicrt

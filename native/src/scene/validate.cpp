@@ -52,10 +52,10 @@ void validate_image(const Image& image, const std::string& item) {
   if (image.width < 1 || image.height < 1) throw SceneError(item, "the image has no pixels");
   if (image.channels < 1 || image.channels > 4)
     throw SceneError(item, "an image must have 1 to 4 channels, has " + std::to_string(image.channels));
-  const std::size_t expected = static_cast<std::size_t>(image.width) * image.height * image.channels;
-  if (image.pixels.size() != expected)
+  const std::size_t expected = image.offset(0, image.height), numbers = image.pixels.size() + image.bytes.size();
+  if (numbers != expected || (!image.pixels.empty() && !image.bytes.empty()))
     throw SceneError(item, "width, height and channels make " + std::to_string(expected) + " numbers, but there are " +
-                               std::to_string(image.pixels.size()));
+                               std::to_string(numbers));
   for (const float number : image.pixels)
     if (!std::isfinite(number)) throw SceneError(item, "a pixel is " + number_text(number));
 }
@@ -63,8 +63,19 @@ void validate_image(const Image& image, const std::string& item) {
 void validate_textures(const Scene& scene) {
   for (std::uint32_t i = 0; i < scene.textures.size(); ++i) {
     const std::string item = entry("textures", i);
-    std::visit([&](const auto& texture) { validate_described(texture, item); }, scene.textures[i]);
+    // Not that transforms have inverses: images may be flattened.
+    std::visit([&](const auto& texture) { validate_fields(texture, item); }, scene.textures[i]);
     if (const auto* image = std::get_if<ImageTexture>(&scene.textures[i])) validate_image(image->image, item);
+  }
+}
+
+void validate_environment(const Environment& environment) {
+  validate_fields(environment, "environment");
+  for (std::size_t i = 0; i < environment.layers.size(); ++i) {
+    const EnvironmentLayer& layer = environment.layers[i];
+    const std::string item = "environment." + entry("layers", i);
+    validate_fields(layer, item);
+    if (!layer.image.is_empty()) validate_image(layer.image, item + ".image");
   }
 }
 
@@ -74,7 +85,7 @@ void validate_shader(const Scene& scene, const Shader& shader, NodeIndex index, 
   validate_described(shader, item);
   for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
     const Value& value = shader.*field.member;
-    if constexpr (std::same_as<Value, ColorInput>) {
+    if constexpr (std::same_as<Value, ColorInput> || std::same_as<Value, ShareInput>) {
       if (value.texture.is_valid()) validate_id(value.texture, scene.textures, join_path(item, field.name), "textures");
     } else if constexpr (std::same_as<Value, NodeIndex>) {
       if (value != no_node && value >= index)
@@ -138,7 +149,7 @@ void validate_lights(const Scene& scene) {
     const auto* sun = std::get_if<SunLight>(&scene.lights[i]);
     if (sun && length_squared(Vec3d(sun->direction)) == 0) throw SceneError(item + ".direction", "must not be zero");
   }
-  validate_described(scene.environment, "environment");
+  validate_environment(scene.environment);
 }
 
 template <class CameraKind>

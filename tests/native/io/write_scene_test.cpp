@@ -33,19 +33,37 @@ Scene make_full_scene() {
   scene.textures.append(ConstantTexture{.color = {0.1f, 0.2f, 0.3f}});
   scene.textures.append(CheckerboardTexture{.color0 = {1, 0, 0}, .color1 = {0, 0.1f, 0}, .scale = {3, 0.7f}});
   scene.textures.append(
-      ImageTexture{{.width = 2, .height = 1, .channels = 2, .pixels = {0.1f, -1, 1e30f, 0}, .path = ""}});
+      ImageTexture{.image = {.width = 2, .height = 1, .channels = 2, .pixels = {0.1f, -1, 1e30f, 0}, .path = ""}});
+
+  const Image bytes{.width = 1, .height = 2, .channels = 1, .pixels = {}, .path = "", .bytes = {7, 255}};
+  scene.textures.append(ImageTexture{.image = bytes,
+                                     .interpolation = ImageInterpolation::cubic,
+                                     .extension = ImageExtension::mirror,
+                                     .uv_to_image = Transform({{{2, 0, 0, 0.1f}, {0, 0, 0, 0}, {0, 0, 1, 0}}}),
+                                     .is_divided_by_alpha = true});
+  scene.environment.layers = {{.radiance = {1, 0.1f, 0}, .seen_by = EnvironmentRays::camera},
+                              {.image = bytes,
+                               .projection = EnvironmentProjection::mirror_ball,
+                               .interpolation = ImageInterpolation::closest,
+                               .to_image = Transform({{{0, 1, 0, 0.1f}, {1, 0, 0, 0}, {0, 0, 1, 0}}}),
+                               .seen_by = EnvironmentRays::scattered}};
 
   Material material{.name = "all \"kinds\"\n\xc3\xa4", .nodes = {}};
   ColorInput textured;
   textured.texture = Id<Texture>{2};
+  ShareInput shared;
+  shared.texture = Id<Texture>{3};
+  shared.is_alpha = true;
   const NodeIndex first = material.add(DiffuseShader{.color = textured, .is_two_sided = true});
   material.add(GlossyShader{.color = Color(0.3f), .roughness = 0.1f});
   material.add(ConductorShader{.is_ggx = true});
   material.add(RefractionShader{.ior = 1.1f});
   material.add(GlassShader{.transmit_color = textured});
   material.add(TransparentShader{});
-  const NodeIndex emission = material.add(EmissionShader{.radiance = {1, 2, 3}, .is_two_sided = false});
-  material.add(PrincipledShader{.base_color = textured, .metallic = 0.9f, .emission = {0.1f, 0, 0}});
+  const NodeIndex emission =
+      material.add(EmissionShader{.radiance = textured, .is_two_sided = false, .strength = 0.3f});
+  material.add(
+      PrincipledShader{.base_color = textured, .metallic = 0.9f, .emission = Color(0.1f, 0, 0), .alpha = shared});
   const NodeIndex mix = material.add(MixShader{.factor = 0.1f, .first = first, .second = no_node});
   material.surface = material.add(AddShader{.first = mix, .second = emission});
   scene.materials.append(material);

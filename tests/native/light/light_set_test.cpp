@@ -31,7 +31,9 @@ struct Scene {
                         .front = std::move(front),
                         .back = std::move(back)});
   }
-  [[nodiscard]] LightSet lights() const { return {lamps, emitters, environment, {Vec3f(-5), Vec3f(5)}}; }
+  [[nodiscard]] LightSet lights() const {
+    return {lamps, emitters, EnvironmentSampler(environment), {Vec3f(-5), Vec3f(5)}};
+  }
 };
 
 Mesh triangle_mesh(Vec3f a, Vec3f b, Vec3f c) {
@@ -341,14 +343,37 @@ TEST(LightSet, irradiance_of_many_deltas_is_their_sum) {
   EXPECT_NEAR(irradiance(scene.lights(), {0, 0, 0}, {0, 0, 1}), expected, 0.02);
 }
 
-TEST(LightSet, the_environment_alone_leaves_nothing_to_sample) {
+TEST(LightSet, an_environment_of_one_colour_leaves_nothing_to_sample) {
   Scene scene;
   scene.environment.radiance = Color(1);
   const LightSet lights = scene.lights();
   EXPECT_TRUE(lights.is_empty());
   EXPECT_FALSE(lights.sample({0, 0, 0}, 0.5f, {0.5f, 0.5f}));
-  EXPECT_EQ(lights.pdf_environment(), 0);
-  EXPECT_EQ(lights.environment().radiance, Color(1));
+  EXPECT_EQ(lights.pdf_environment({0, 0, 1}), 0);
+  EXPECT_EQ(lights.environment_radiance({0, 0, 1}, false), Color(1));
+}
+
+TEST(LightSet, pictures_around_the_scene_share_the_choice_with_lamps) {
+  std::vector<float> greys(32);
+  for (std::size_t i = 0; i < greys.size(); ++i) greys[i] = float(i % 7);
+  Scene scene;
+  scene.environment.layers = {{.image = {.width = 8, .height = 4, .channels = 1, .pixels = greys, .path = ""}}};
+  scene.lamps = {PointLight{.position = {0, 0, 2}, .intensity = Color(4), .radius = 0.5f}};
+  const LightSet lights = scene.lights();
+  const auto sample = [&](Rng& rng) -> std::optional<Vec3f> {
+    const float choice = next_unit_float(rng);
+    const auto s = lights.sample({0, 0, 0}, choice, next_unit_vec2(rng));
+    if (!s) return std::nullopt;
+    return s->wi;
+  };
+  const auto density = [&](Vec3f wi) {
+    double sum = lights.pdf_environment(wi);
+    lights.for_each_lamp_hit({.origin = {0, 0, 0}, .direction = wi}, [&](const LightHit& hit) { sum += hit.pdf; });
+    return sum;
+  };
+  const ChiSquareResult result = chi_square_sphere(sample, density, {.samples = 50000});
+  EXPECT_GT(result.p_value, 1e-3) << result.describe();
+  EXPECT_NEAR(result.mass, 1, 0.01) << result.describe();
 }
 
 TEST(LightSet, surfaces_that_do_not_shine_have_no_density) {
