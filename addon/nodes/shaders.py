@@ -87,6 +87,12 @@ def emission(view: NodeView) -> NodeIndex:
     return view.add(basicrt.EmissionShader(radiance=radiance, twosided=True))
 
 
+@shader("ShaderNodeHoldout")
+def holdout(view: NodeView) -> NodeIndex:
+    """A hole in the picture."""
+    return view.add(basicrt.HoldoutShader())
+
+
 @shader("ShaderNodeMixShader")
 def mix(view: NodeView) -> NodeIndex:
     """The first where the factor is 0, the second where it is 1."""
@@ -169,9 +175,7 @@ def ray_portal(view: NodeView) -> NodeIndex:
     return view.add(basicrt.TransparentShader(color=view.color("Color")))
 
 
-@shader("ShaderNodeHoldout", "ShaderNodeBackground")
-def black(view: NodeView) -> NodeIndex:
-    """A background on a surface is black in Blender too; a holdout is black without its alpha."""
-    if view.bl_idname == "ShaderNodeHoldout":
-        view.warn("not supported: drawn black and opaque")
+@shader("ShaderNodeBackground")
+def black(_view: NodeView) -> NodeIndex:
+    """A background on a surface is black in Blender too."""
     return None

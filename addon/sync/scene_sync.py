@@ -113,6 +113,9 @@ class _InstanceExport:
                 materials=self._materials_of(b_object, b_mesh),
                 name=b_object.name,
                 visibility=self._visibility_of(b_instance, b_object),
+                holdout=self._is_holdout(b_instance, b_object),
+                shadow_catcher=self._is_shadow_catcher(b_instance, b_object),
+                shadow_terminator_offset=compat.shadow_terminator_offset(b_object),
             )
         )
 
@@ -121,8 +124,6 @@ class _InstanceExport:
         key = mesh.key(b_mesh)
         if key not in self._shapes:
             self._shapes[key] = self._new_shape(b_object, b_mesh)
-            if b_object.is_holdout or b_object.is_shadow_catcher:
-                self._warn(b_object, "holdouts and shadow catchers are not supported: drawn as is")
         return self._shapes[key]
 
     def _new_shape(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> int | None:
@@ -157,6 +158,21 @@ class _InstanceExport:
             self._names["materials"].append(f'material "{b_material.name}"')
             self._materials[key] = self._scene.materials.append(converted)
         return self._materials[key]
+
+    def _is_holdout(
+        self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object
+    ) -> bool:
+        """Whether it is a hole in the picture: itself, what instances it, or a collection of it."""
+        b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
+        in_collection = b_root.original.holdout_get(view_layer=self._depsgraph.view_layer)
+        return bool(b_object.is_holdout or b_root.is_holdout or in_collection)
+
+    def _is_shadow_catcher(
+        self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object
+    ) -> bool:
+        """Whether only shadows on it are seen: itself or what instances it says so."""
+        b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
+        return bool(b_object.is_shadow_catcher or b_root.is_shadow_catcher)
 
     def _visibility_of(
         self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object

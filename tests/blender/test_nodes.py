@@ -426,7 +426,7 @@ def test_unknown_shader_is_grey() -> None:
 def test_warnings_come_once_for_each_item() -> None:
     report = Report()
     for _ in range(2):
-        material = new_material("ShaderNodeHoldout", name="Hole")
+        material = new_material("ShaderNodeBsdfToon", name="Cartoon")
         translate_surface(material, report)
         translate_surface(material, report)
     assert len(report.warnings) == 2, "one for each of the two materials"

@@ -28,6 +28,7 @@ __all__: list[str] = [
     "FisheyePolynomialCamera",
     "GlassShader",
     "GlossyShader",
+    "HoldoutShader",
     "ImageTexture",
     "Instance",
     "InstanceTable",
@@ -568,6 +569,13 @@ class EmissionShader:
     @twosided.setter
     def twosided(self, value: bool) -> None: ...
 
+class HoldoutShader:
+    """
+    A hole in the picture for what the camera sees.
+    """
+    def __init__(self) -> None: ...
+    def __repr__(self) -> str: ...
+
 class PrincipledShader:
     """
     Blender's Principled BSDF with constant values.
@@ -740,6 +748,7 @@ class Material:
         | GlassShader
         | TransparentShader
         | EmissionShader
+        | HoldoutShader
         | PrincipledShader
         | MixShader
         | AddShader,
@@ -758,6 +767,7 @@ class Material:
         | GlassShader
         | TransparentShader
         | EmissionShader
+        | HoldoutShader
         | PrincipledShader
         | MixShader
         | AddShader
@@ -1990,10 +2000,15 @@ class RenderSettings:
     border_y: lower edge of the rectangle to render, pixels; at least 0
     border_width: pixels; 0 is the whole width; at least 0
     border_height: pixels; 0 is the whole height; at least 0
-    samples: paths for each pixel; in [1, 16777216]
+    samples: paths for each pixel, the most where sampling is adaptive or time limited; in [1, 16777216]
+    adaptive_threshold: the noise at which a pixel has enough samples; 0 gives every pixel all samples; in [0, 1]
+    adaptive_min_samples: samples before the noise is looked at; 0 chooses by the threshold; in [0, 16777216]
+    time_limit: seconds after which no more samples are started; 0 is no limit; at least 0
     seed: another seed, other noise
     sampler: how a pixel's samples are spread: evenly, or each by chance
     film_transparent: the background has alpha 0
+    film_transparent_glass: where the film is transparent, so is the background seen through glass
+    film_transparent_roughness: the largest alpha of microfacets that counts as such glass; in [0, 1]
     exposure: multiplies radiance; at least 0
     integrator: how light is computed
     max_bounces: scatterings after which a path ends; in [0, 1024]
@@ -2002,12 +2017,19 @@ class RenderSettings:
     transmission_bounces: transmissions after which a path ends; in [0, 1024]
     transparent_bounces: transparent surfaces after which a ray ends; in [0, 1024]
     rr_threshold: throughput under which Russian roulette begins; in [0, 1]
+    light_threshold: light samples that would add less than this are left out by chance, which changes no mean; in [0, 1]
+    clamp_direct: the most light that a path adds from lights it meets at once; 0 is no limit; at least 0
+    clamp_indirect: the most light that a path adds after more scatterings; 0 is no limit; at least 0
+    blur_glossy: roughens what paths meet after a blurred scattering; 0 is none; in [0, 10]
+    caustics_reflective: glossy reflection after a diffuse one
+    caustics_refractive: transmission after a diffuse reflection
     point_light_position: intersection_test: the light, world space
     point_light_flux: intersection_test: watts; at least 0
     max_depth: intersection_test: surfaces that a path may meet; in [1, 1024]
     bvh_builder: which builder makes the trees
     filter_type: the filter's shape
     filter_radius: half of its width, in pixels; above 0
+    filter_falloff: of gaussian: exp(-falloff * x^2), x in pixels; above 0
     passes: names of the passes to make, as in passes()
     """
     def __init__(
@@ -2019,9 +2041,14 @@ class RenderSettings:
         border_width: int = 0,
         border_height: int = 0,
         samples: int = 64,
+        adaptive_threshold: float = 0.0,
+        adaptive_min_samples: int = 0,
+        time_limit: float = 0.0,
         seed: int = 0,
         sampler: str = "sobol",
         film_transparent: bool = False,
+        film_transparent_glass: bool = False,
+        film_transparent_roughness: float = 0.1,
         exposure: float = 1.0,
         integrator: str = "path",
         max_bounces: int = 12,
@@ -2029,7 +2056,13 @@ class RenderSettings:
         glossy_bounces: int = 4,
         transmission_bounces: int = 12,
         transparent_bounces: int = 8,
-        rr_threshold: float = 1.0,
+        rr_threshold: float = 0.5,
+        light_threshold: float = 0.0,
+        clamp_direct: float = 0.0,
+        clamp_indirect: float = 0.0,
+        blur_glossy: float = 0.0,
+        caustics_reflective: bool = True,
+        caustics_refractive: bool = True,
         point_light_position: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
             0.0,
             0.0,
@@ -2044,9 +2077,31 @@ class RenderSettings:
         bvh_builder: str = "binned_sah",
         filter_type: str = "box",
         filter_radius: float = 0.5,
+        filter_falloff: float = 2.0,
         passes: collections.abc.Iterable[str] = ["Combined"],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def adaptive_min_samples(self) -> int:
+        """
+        samples before the noise is looked at; 0 chooses by the threshold; in [0, 16777216]
+        """
+    @adaptive_min_samples.setter
+    def adaptive_min_samples(self, value: int) -> None: ...
+    @property
+    def adaptive_threshold(self) -> float:
+        """
+        the noise at which a pixel has enough samples; 0 gives every pixel all samples; in [0, 1]
+        """
+    @adaptive_threshold.setter
+    def adaptive_threshold(self, value: float) -> None: ...
+    @property
+    def blur_glossy(self) -> float:
+        """
+        roughens what paths meet after a blurred scattering; 0 is none; in [0, 10]
+        """
+    @blur_glossy.setter
+    def blur_glossy(self, value: float) -> None: ...
     @property
     def border_height(self) -> int:
         """
@@ -2083,6 +2138,34 @@ class RenderSettings:
     @bvh_builder.setter
     def bvh_builder(self, value: str) -> None: ...
     @property
+    def caustics_reflective(self) -> bool:
+        """
+        glossy reflection after a diffuse one
+        """
+    @caustics_reflective.setter
+    def caustics_reflective(self, value: bool) -> None: ...
+    @property
+    def caustics_refractive(self) -> bool:
+        """
+        transmission after a diffuse reflection
+        """
+    @caustics_refractive.setter
+    def caustics_refractive(self, value: bool) -> None: ...
+    @property
+    def clamp_direct(self) -> float:
+        """
+        the most light that a path adds from lights it meets at once; 0 is no limit; at least 0
+        """
+    @clamp_direct.setter
+    def clamp_direct(self, value: float) -> None: ...
+    @property
+    def clamp_indirect(self) -> float:
+        """
+        the most light that a path adds after more scatterings; 0 is no limit; at least 0
+        """
+    @clamp_indirect.setter
+    def clamp_indirect(self, value: float) -> None: ...
+    @property
     def diffuse_bounces(self) -> int:
         """
         diffuse reflections after which a path ends; in [0, 1024]
@@ -2103,6 +2186,27 @@ class RenderSettings:
         """
     @film_transparent.setter
     def film_transparent(self, value: bool) -> None: ...
+    @property
+    def film_transparent_glass(self) -> bool:
+        """
+        where the film is transparent, so is the background seen through glass
+        """
+    @film_transparent_glass.setter
+    def film_transparent_glass(self, value: bool) -> None: ...
+    @property
+    def film_transparent_roughness(self) -> float:
+        """
+        the largest alpha of microfacets that counts as such glass; in [0, 1]
+        """
+    @film_transparent_roughness.setter
+    def film_transparent_roughness(self, value: float) -> None: ...
+    @property
+    def filter_falloff(self) -> float:
+        """
+        of gaussian: exp(-falloff * x^2), x in pixels; above 0
+        """
+    @filter_falloff.setter
+    def filter_falloff(self, value: float) -> None: ...
     @property
     def filter_radius(self) -> float:
         """
@@ -2138,6 +2242,13 @@ class RenderSettings:
         """
     @integrator.setter
     def integrator(self, value: str) -> None: ...
+    @property
+    def light_threshold(self) -> float:
+        """
+        light samples that would add less than this are left out by chance, which changes no mean; in [0, 1]
+        """
+    @light_threshold.setter
+    def light_threshold(self, value: float) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
@@ -2194,7 +2305,7 @@ class RenderSettings:
     @property
     def samples(self) -> int:
         """
-        paths for each pixel; in [1, 16777216]
+        paths for each pixel, the most where sampling is adaptive or time limited; in [1, 16777216]
         """
     @samples.setter
     def samples(self, value: int) -> None: ...
@@ -2205,6 +2316,13 @@ class RenderSettings:
         """
     @seed.setter
     def seed(self, value: int) -> None: ...
+    @property
+    def time_limit(self) -> float:
+        """
+        seconds after which no more samples are started; 0 is no limit; at least 0
+        """
+    @time_limit.setter
+    def time_limit(self, value: float) -> None: ...
     @property
     def transmission_bounces(self) -> int:
         """
@@ -2236,6 +2354,9 @@ class Instance:
     materials: for each material slot an index into Scene.materials; None is a diffuse grey of 0.8
     name: for messages
     visibility: RayKind bits: the rays that see it
+    holdout: a hole in the picture, for camera rays
+    shadow_catcher: the camera sees through it, darkened by the shadows of what is none
+    shadow_terminator_offset: cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
     """
     def __init__(
         self,
@@ -2244,8 +2365,18 @@ class Instance:
         materials: collections.abc.Iterable[int | None] = [],
         name: str = "",
         visibility: int = 4294967295,
+        holdout: bool = False,
+        shadow_catcher: bool = False,
+        shadow_terminator_offset: float = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def holdout(self) -> bool:
+        """
+        a hole in the picture, for camera rays
+        """
+    @holdout.setter
+    def holdout(self, value: bool) -> None: ...
     @property
     def materials(self) -> list[int | None]:
         """
@@ -2260,6 +2391,20 @@ class Instance:
         """
     @name.setter
     def name(self, value: str) -> None: ...
+    @property
+    def shadow_catcher(self) -> bool:
+        """
+        the camera sees through it, darkened by the shadows of what is none
+        """
+    @shadow_catcher.setter
+    def shadow_catcher(self, value: bool) -> None: ...
+    @property
+    def shadow_terminator_offset(self) -> float:
+        """
+        cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
+        """
+    @shadow_terminator_offset.setter
+    def shadow_terminator_offset(self, value: float) -> None: ...
     @property
     def shape(self) -> int | None:
         """
@@ -2467,7 +2612,7 @@ class Progress:
     @property
     def fraction(self) -> float:
         """
-        of all samples; never falls
+        of all samples, or of the time there is for them; never falls
         """
     @property
     def is_done(self) -> bool:
@@ -2475,9 +2620,19 @@ class Progress:
         every tile was handed out, or it was stopped
         """
     @property
+    def is_time_up(self) -> bool:
+        """
+        the time limit ended it before all samples were taken
+        """
+    @property
     def remaining_seconds(self) -> float:
         """
         a guess from the rate so far
+        """
+    @property
+    def samples_per_pixel(self) -> float:
+        """
+        the mean of those taken so far
         """
     @property
     def samples_per_second(self) -> float: ...

@@ -68,6 +68,9 @@ class Bsdf {
 
   // wo is the direction that the lobes were made for.
   [[nodiscard]] BsdfValue eval(Vec3f wo, Vec3f wi) const;
+  // The same for a light that meets the smooth surface which the shading normal stands for: it may stand behind the
+  // facet that stands in for it. sample() gives no such direction, so its density is 0.
+  [[nodiscard]] BsdfValue eval_smooth(Vec3f wo, Vec3f wi) const;
   // `choice` picks the lobe, `u` the direction. Nothing where the light is absorbed.
   [[nodiscard]] std::optional<BsdfSample> sample(Vec3f wo, float choice, Vec2f u) const;
 
@@ -76,6 +79,14 @@ class Bsdf {
   [[nodiscard]] bool is_empty() const { return lobes_.count == 0; }
   // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
+
+  // Makes microfacets' alpha at least so much, mirrors rough. See adjust.cpp for this and the next.
+  void roughen(float least_alpha);
+  // Leaves out reflection by microfacets and mirrors, transmission by them, or both.
+  void remove_glossy(bool removes_reflection, bool removes_transmission);
+  void remove_opaque();  // all but what passes straight through
+  // The alpha of the smoothest interface that light is transmitted through; infinite where there is none.
+  [[nodiscard]] float transmission_alpha() const;
 
   // The frame's tangent matters only to stretched lobes.
   void set_frame(const Frame& shading_frame) { frame_ = shading_frame; }
@@ -120,6 +131,7 @@ class Bsdf {
     return (dot(geometric_normal_, world_wi) * side.sign > 0) != (local_wi.z > 0);
   }
   [[nodiscard]] LobeValue eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except) const;
+  void rebuild(auto&& change);
 
   Frame frame_;
   Vec3f geometric_normal_{0, 0, 1};
@@ -152,10 +164,20 @@ inline BsdfValue Bsdf::eval(Vec3f wo, Vec3f wi) const {
   return {sum.value, sum.pdf};
 }
 
+inline BsdfValue Bsdf::eval_smooth(Vec3f wo, Vec3f wi) const {
+  const Side side = find_side(wo);
+  const Vec3f local_wi = frame_.to_local(wi * side.sign);
+  const bool is_leak = leaks(side, wi, local_wi);
+  if (is_leak && !(local_wi.z > 0)) return {};
+  const LobeValue sum = eval_lobes(side.wo, local_wi, nullptr);
+  return {sum.value, is_leak ? 0 : sum.pdf};
+}
+
 // What a material does at a surface point seen from wo: scatters, emits, and lets through unscattered.
 struct SurfaceShading {
   Bsdf bsdf;
   Color emission{0.0f};  // radiance towards wo
+  float holdout = 0;     // the share that is a hole
   // It is the same, but for the frame, at every point and for every wo on this side of the surface.
   bool is_uniform = true;
 };

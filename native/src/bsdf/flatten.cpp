@@ -99,6 +99,8 @@ void flatten(const EmissionShader& node, const Target& target, float weight) {
   if (node.is_two_sided || !target.is_back) target.shading.emission += node.radiance * weight;
 }
 
+void flatten(const HoldoutShader&, const Target& target, float weight) { target.shading.holdout += weight; }
+
 void add_metal(const PrincipledShader& node, const Target& target, Color base, float weight) {
   const SchlickFresnel fresnel{base};
   const Microfacets microfacets = make_microfacets(node.roughness, node.distribution);

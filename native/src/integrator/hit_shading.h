@@ -8,6 +8,7 @@
 #include <span>
 
 #include "bsdf/bsdf.h"
+#include "geometry/shadow_terminator.h"
 #include "geometry/surface_point.h"
 #include "math/next_float.h"
 #include "scene/prepare.h"
@@ -82,6 +83,26 @@ inline void set_start(Ray& ray, const SurfacePoint& point) {
 [[nodiscard]] inline Ray spawn_shadow_ray(const SurfacePoint& point, Vec3f direction, float distance, float time) {
   Ray ray = spawn_ray(point, direction, ray_shadow, time);
   ray.t_max = distance * (1 - 1e-4f);
+  return ray;
+}
+
+// The same as Blender's shadow terminator offset has it: on a smooth-shaded mesh the ray may start above the facet.
+[[nodiscard]] inline Ray spawn_shadow_ray(const PreparedScene& scene, const SurfacePoint& point, Vec3f direction,
+                                          float distance, float time) {
+  Ray ray = spawn_shadow_ray(point, direction, distance, time);
+  const PreparedScene::PreparedInstance& instance = scene.instances[point.instance];
+  if (instance.shadow_terminator_offset == 0) return ray;
+  const float share = smooth_share(point, direction, instance.shadow_terminator_offset);
+  if (share == 0) return ray;
+  const Mesh& mesh = std::get<Mesh>(scene.shapes[instance.shape]);
+  const Vec3f shift = shift_to_smooth_surface(mesh, instance.placement, point, direction) * share;
+  if (!(length_squared(shift) > 0)) return ray;
+  ray.origin = offset_origin(point, shift) + shift;
+  if (distance == infinity) return ray;
+  const Vec3f to_light = point.position + direction * distance - ray.origin;  // the same point of it
+  const float new_distance = length(to_light);
+  ray.direction = to_light * (1 / new_distance);
+  ray.t_max = new_distance * (1 - 1e-4f);
   return ray;
 }
 

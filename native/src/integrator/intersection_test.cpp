@@ -76,7 +76,8 @@ void IntersectionTest::gather_light(const Path& path, const Ray& ray, const Surf
 }
 
 void IntersectionTest::connect(std::span<PixelSample> samples) {
-  add_unoccluded(scene_.tracer, shadow_rays_, shadow_tests_, occluded_, samples);
+  for_each_unoccluded(scene_.tracer, shadow_rays_, shadow_tests_, occluded_,
+                      [&](const ShadowTest& test) { samples[test.sample].radiance += test.radiance; });
 }
 
 }  // namespace basicrt

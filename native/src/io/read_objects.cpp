@@ -11,8 +11,17 @@ namespace basicrt {
 namespace {
 
 // "shape", then what every object may have.
-constexpr std::array<std::string_view, 8> shape_object_keys = {"shape",     "name",      "material_name", "materials",
-                                                               "transform", "translate", "light",         "visibility"};
+constexpr std::array<std::string_view, 11> shape_object_keys = {"shape",
+                                                                "name",
+                                                                "material_name",
+                                                                "materials",
+                                                                "transform",
+                                                                "translate",
+                                                                "light",
+                                                                "visibility",
+                                                                "holdout",
+                                                                "shadow_catcher",
+                                                                "shadow_terminator_offset"};
 constexpr auto object_keys = std::span(shape_object_keys).subspan(1);
 
 Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
@@ -85,6 +94,9 @@ void read_object(SceneReader& reader, const JsonValue& object) {
   instance.object_to_world = read_placement(object);
   instance.materials = read_material_slots(reader, object);
   if (const auto visibility = object.find("visibility")) instance.visibility = read_visibility(*visibility);
+  read_optional(object, "holdout", instance.is_holdout);
+  read_optional(object, "shadow_catcher", instance.is_shadow_catcher);
+  read_optional(object, "shadow_terminator_offset", instance.shadow_terminator_offset);
   if (const auto light = object.find("light")) read_area_light(reader, *light, instance.materials);
   if (is_empty(reader.scene.shapes[instance.shape]))
     object.warn(reader.report, "skipped: the mesh has no triangles");

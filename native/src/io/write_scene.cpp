@@ -105,6 +105,10 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
     for (std::size_t bit = 0; bit < ray_kind_names.size(); ++bit)
       if ((instance.visibility >> bit) & 1u) json["visibility"].push_back(ray_kind_names[bit]);
   }
+  if (instance.is_holdout) json["holdout"] = true;
+  if (instance.is_shadow_catcher) json["shadow_catcher"] = true;
+  if (instance.shadow_terminator_offset != 0)
+    json["shadow_terminator_offset"] = write(instance.shadow_terminator_offset);
   return json;
 }
 

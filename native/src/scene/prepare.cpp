@@ -108,6 +108,16 @@ std::vector<std::uint32_t> resolve_materials(const Instance& instance, std::uint
   return slots;
 }
 
+std::uint32_t traced_visibility(const Instance& instance) {
+  return instance.is_shadow_catcher ? instance.visibility | ray_catcher : instance.visibility & ~ray_catcher;
+}
+
+// None where the surface is as smooth as its normals.
+float shadow_terminator_offset(const Scene& scene, const Instance& instance) {
+  const auto* mesh = std::get_if<Mesh>(&scene.shapes[instance.shape]);
+  return mesh && !mesh->corner_normals.empty() ? instance.shadow_terminator_offset : 0;
+}
+
 std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::uint32_t index) {
   const PreparedScene::PreparedInstance& instance = scene.instances[index];
   EmissiveInstance result{.instance = index,
@@ -150,14 +160,18 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     const auto default_index = static_cast<std::uint32_t>(prepared.materials.size() - 1);
     prepared.instances.push_back({.shape = instance.shape.index,
                                   .placement = placement,
-                                  .materials = resolve_materials(instance, default_index)});
+                                  .materials = resolve_materials(instance, default_index),
+                                  .is_holdout = instance.is_holdout,
+                                  .is_shadow_catcher = instance.is_shadow_catcher,
+                                  .shadow_terminator_offset = shadow_terminator_offset(scene, instance)});
     PreparedScene::PreparedInstance& added = prepared.instances.back();
     for (const std::uint32_t material : added.materials)
       added.needs_derivatives = added.needs_derivatives || needs_derivatives(prepared.materials[material].material);
     traced.push_back({.shape = instance.shape.index,
                       .object_to_world = placement.object_to_world,
                       .world_to_object = placement.world_to_object,
-                      .visibility = instance.visibility});
+                      .visibility = traced_visibility(instance)});
+    prepared.has_shadow_catchers = prepared.has_shadow_catchers || instance.is_shadow_catcher;
   }
   for (const PreparedMaterial& prepared_material : prepared.materials)
     prepared.has_transparency = prepared.has_transparency || is_transparent(prepared_material.material);

@@ -23,6 +23,9 @@ struct PreparedScene {
     Placement placement;
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
     bool needs_derivatives = false;        // one of the materials does
+    bool is_holdout = false;
+    bool is_shadow_catcher = false;
+    float shadow_terminator_offset = 0;
   };
 
   CameraView view;
@@ -35,6 +38,7 @@ struct PreparedScene {
   Tracer tracer;
   LightSet lights;
   bool has_transparency = false;  // shadow rays must look at what they hit
+  bool has_shadow_catchers = false;
 
   [[nodiscard]] const PreparedMaterial& material_of(const SurfacePoint& point) const {
     const std::vector<std::uint32_t>& slots = instances[point.instance].materials;

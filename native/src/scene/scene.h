@@ -25,6 +25,9 @@ struct Instance {
   Transform object_to_world;
   std::vector<Id<Material>> materials;
   std::uint32_t visibility = ray_all;  // RayKind bits
+  bool is_holdout = false;             // a hole in the picture, for camera rays
+  bool is_shadow_catcher = false;      // the camera sees through it, to where it darkens by others' shadows
+  float shadow_terminator_offset = 0;  // see shadow_terminator.h, in [0, 1]
 };
 
 struct Scene {

@@ -126,6 +126,7 @@ void validate_instances(const Scene& scene) {
     for (std::size_t slot = 0; slot < instance.materials.size(); ++slot)
       if (const Id<Material> id = instance.materials[slot]; id.is_valid())
         validate_id(id, scene.materials, item + "." + entry("materials", slot), "materials");
+    validate_field(instance.shadow_terminator_offset, within(0, 1), item, "shadow_terminator_offset");
     validate_transform(instance.object_to_world, item + ".transform");
     validate_reach(transform_bounds(instance.object_to_world, shape_bounds[instance.shape.index]), item);
   }

@@ -141,6 +141,12 @@ struct EmissionShader {
   }
 };
 
+// A hole in the picture for what the camera sees, black for all else.
+struct HoldoutShader {
+  static constexpr std::string_view kind = "holdout";
+  static constexpr auto fields() { return std::tuple{}; }
+};
+
 // Blender's Principled BSDF with constant values: the sockets that change an ordinary opaque, metal or glass surface.
 struct PrincipledShader {
   ColorInput base_color;
@@ -185,8 +191,9 @@ struct AddShader {
   }
 };
 
-using ShaderNode = std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader,
-                                TransparentShader, EmissionShader, PrincipledShader, MixShader, AddShader>;
+using ShaderNode =
+    std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader, TransparentShader,
+                 EmissionShader, HoldoutShader, PrincipledShader, MixShader, AddShader>;
 
 // A node refers only to nodes before it, so there is no cycle. A Mix or Add input of no_node is black and opaque,
 // as an empty socket is in Blender.
