@@ -116,6 +116,18 @@ def is_light_normalized(light: bpy.types.Light) -> bool:
     return bool(getattr(light, "normalize", True))
 
 
+def light_max_bounces(light: bpy.types.Light) -> int:
+    """The bounces behind which a lamp lights nothing: a setting of Cycles, which may be switched off."""
+    return int(getattr(getattr(light, "cycles", None), "max_bounces", 1024))
+
+
+def is_portal(light: bpy.types.Light) -> bool:
+    """Whether an area lamp only guides Cycles' sampling of the world."""
+    return light.type == "AREA" and bool(
+        getattr(getattr(light, "cycles", None), "is_portal", False)
+    )
+
+
 def peak_memory_megabytes() -> float | None:
     """The most memory this process has had, or None where the system does not tell."""
     try:

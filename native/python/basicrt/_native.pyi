@@ -781,7 +781,13 @@ class PointLight:
     intensity: W / sr; at least 0
     radius: metres; at least 0
     soft: a disc that faces the lit point instead of a sphere
-    camera_visible: whether camera rays see the lamp; what it lights stays the same
+    camera_visible: camera rays see the lamp
+    diffuse_visible: it lights by diffuse reflection
+    glossy_visible: it lights by glossy reflection, and mirrors see it
+    transmission_visible: it lights through glass, and is seen through it
+    volume_visible: it lights volumes
+    casts_shadows: what is in the way dims its light
+    max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
     def __init__(
         self,
@@ -790,15 +796,42 @@ class PointLight:
         radius: float = 0.0,
         soft: bool = False,
         camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
     def camera_visible(self) -> bool:
         """
-        whether camera rays see the lamp; what it lights stays the same
+        camera rays see the lamp
         """
     @camera_visible.setter
     def camera_visible(self, value: bool) -> None: ...
+    @property
+    def casts_shadows(self) -> bool:
+        """
+        what is in the way dims its light
+        """
+    @casts_shadows.setter
+    def casts_shadows(self, value: bool) -> None: ...
+    @property
+    def diffuse_visible(self) -> bool:
+        """
+        it lights by diffuse reflection
+        """
+    @diffuse_visible.setter
+    def diffuse_visible(self, value: bool) -> None: ...
+    @property
+    def glossy_visible(self) -> bool:
+        """
+        it lights by glossy reflection, and mirrors see it
+        """
+    @glossy_visible.setter
+    def glossy_visible(self, value: bool) -> None: ...
     @property
     def intensity(self) -> tuple[float, float, float]:
         """
@@ -808,6 +841,13 @@ class PointLight:
     def intensity(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
+    @property
+    def max_bounces(self) -> int:
+        """
+        scatterings behind which surfaces aren't lit by it; in [0, 1024]
+        """
+    @max_bounces.setter
+    def max_bounces(self, value: int) -> None: ...
     @property
     def position(self) -> tuple[float, float, float]:
         """
@@ -829,6 +869,20 @@ class PointLight:
         """
     @soft.setter
     def soft(self, value: bool) -> None: ...
+    @property
+    def transmission_visible(self) -> bool:
+        """
+        it lights through glass, and is seen through it
+        """
+    @transmission_visible.setter
+    def transmission_visible(self, value: bool) -> None: ...
+    @property
+    def volume_visible(self) -> bool:
+        """
+        it lights volumes
+        """
+    @volume_visible.setter
+    def volume_visible(self, value: bool) -> None: ...
 
 class SpotLight:
     """
@@ -840,7 +894,13 @@ class SpotLight:
     soft: a disc that faces the lit point instead of a sphere
     angle: full angle of the cone, radians; above 0
     blend: share of the cone in which it fades; in [0, 1]
-    camera_visible: whether camera rays see the lamp; what it lights stays the same
+    camera_visible: camera rays see the lamp
+    diffuse_visible: it lights by diffuse reflection
+    glossy_visible: it lights by glossy reflection, and mirrors see it
+    transmission_visible: it lights through glass, and is seen through it
+    volume_visible: it lights volumes
+    casts_shadows: what is in the way dims its light
+    max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
     def __init__(
         self,
@@ -851,6 +911,12 @@ class SpotLight:
         angle: float = 0.785398,
         blend: float = 0.15,
         camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -870,10 +936,31 @@ class SpotLight:
     @property
     def camera_visible(self) -> bool:
         """
-        whether camera rays see the lamp; what it lights stays the same
+        camera rays see the lamp
         """
     @camera_visible.setter
     def camera_visible(self, value: bool) -> None: ...
+    @property
+    def casts_shadows(self) -> bool:
+        """
+        what is in the way dims its light
+        """
+    @casts_shadows.setter
+    def casts_shadows(self, value: bool) -> None: ...
+    @property
+    def diffuse_visible(self) -> bool:
+        """
+        it lights by diffuse reflection
+        """
+    @diffuse_visible.setter
+    def diffuse_visible(self, value: bool) -> None: ...
+    @property
+    def glossy_visible(self) -> bool:
+        """
+        it lights by glossy reflection, and mirrors see it
+        """
+    @glossy_visible.setter
+    def glossy_visible(self, value: bool) -> None: ...
     @property
     def intensity(self) -> tuple[float, float, float]:
         """
@@ -883,6 +970,13 @@ class SpotLight:
     def intensity(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
+    @property
+    def max_bounces(self) -> int:
+        """
+        scatterings behind which surfaces aren't lit by it; in [0, 1024]
+        """
+    @max_bounces.setter
+    def max_bounces(self, value: int) -> None: ...
     @property
     def radius(self) -> float:
         """
@@ -904,6 +998,20 @@ class SpotLight:
         """
     @transform.setter
     def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def transmission_visible(self) -> bool:
+        """
+        it lights through glass, and is seen through it
+        """
+    @transmission_visible.setter
+    def transmission_visible(self, value: bool) -> None: ...
+    @property
+    def volume_visible(self) -> bool:
+        """
+        it lights volumes
+        """
+    @volume_visible.setter
+    def volume_visible(self, value: bool) -> None: ...
 
 class SunLight:
     """
@@ -912,7 +1020,13 @@ class SunLight:
     direction: in which the light travels, world space
     irradiance: W / m^2 on a surface that faces it; at least 0
     angle: full angle of the disc, radians; in [0, 3.141593]
-    camera_visible: whether camera rays see the lamp; what it lights stays the same
+    camera_visible: camera rays see the lamp
+    diffuse_visible: it lights by diffuse reflection
+    glossy_visible: it lights by glossy reflection, and mirrors see it
+    transmission_visible: it lights through glass, and is seen through it
+    volume_visible: it lights volumes
+    casts_shadows: what is in the way dims its light
+    max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
     def __init__(
         self,
@@ -920,6 +1034,12 @@ class SunLight:
         irradiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
         angle: float = 0.0,
         camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -932,10 +1052,24 @@ class SunLight:
     @property
     def camera_visible(self) -> bool:
         """
-        whether camera rays see the lamp; what it lights stays the same
+        camera rays see the lamp
         """
     @camera_visible.setter
     def camera_visible(self, value: bool) -> None: ...
+    @property
+    def casts_shadows(self) -> bool:
+        """
+        what is in the way dims its light
+        """
+    @casts_shadows.setter
+    def casts_shadows(self, value: bool) -> None: ...
+    @property
+    def diffuse_visible(self) -> bool:
+        """
+        it lights by diffuse reflection
+        """
+    @diffuse_visible.setter
+    def diffuse_visible(self, value: bool) -> None: ...
     @property
     def direction(self) -> tuple[float, float, float]:
         """
@@ -946,6 +1080,13 @@ class SunLight:
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
     @property
+    def glossy_visible(self) -> bool:
+        """
+        it lights by glossy reflection, and mirrors see it
+        """
+    @glossy_visible.setter
+    def glossy_visible(self, value: bool) -> None: ...
+    @property
     def irradiance(self) -> tuple[float, float, float]:
         """
         W / m^2 on a surface that faces it; at least 0
@@ -954,6 +1095,27 @@ class SunLight:
     def irradiance(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
+    @property
+    def max_bounces(self) -> int:
+        """
+        scatterings behind which surfaces aren't lit by it; in [0, 1024]
+        """
+    @max_bounces.setter
+    def max_bounces(self, value: int) -> None: ...
+    @property
+    def transmission_visible(self) -> bool:
+        """
+        it lights through glass, and is seen through it
+        """
+    @transmission_visible.setter
+    def transmission_visible(self, value: bool) -> None: ...
+    @property
+    def volume_visible(self) -> bool:
+        """
+        it lights volumes
+        """
+    @volume_visible.setter
+    def volume_visible(self, value: bool) -> None: ...
 
 class AreaLight:
     """
@@ -963,7 +1125,13 @@ class AreaLight:
     radiance: W / (m^2 sr) with full spread; at least 0
     ellipse: an ellipse instead of a rectangle
     spread: full angle, radians; in [0, 3.141593]
-    camera_visible: whether camera rays see the lamp; what it lights stays the same
+    camera_visible: camera rays see the lamp
+    diffuse_visible: it lights by diffuse reflection
+    glossy_visible: it lights by glossy reflection, and mirrors see it
+    transmission_visible: it lights through glass, and is seen through it
+    volume_visible: it lights volumes
+    casts_shadows: what is in the way dims its light
+    max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
     def __init__(
         self,
@@ -972,15 +1140,35 @@ class AreaLight:
         ellipse: bool = False,
         spread: float = 3.141593,
         camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
     def camera_visible(self) -> bool:
         """
-        whether camera rays see the lamp; what it lights stays the same
+        camera rays see the lamp
         """
     @camera_visible.setter
     def camera_visible(self, value: bool) -> None: ...
+    @property
+    def casts_shadows(self) -> bool:
+        """
+        what is in the way dims its light
+        """
+    @casts_shadows.setter
+    def casts_shadows(self, value: bool) -> None: ...
+    @property
+    def diffuse_visible(self) -> bool:
+        """
+        it lights by diffuse reflection
+        """
+    @diffuse_visible.setter
+    def diffuse_visible(self, value: bool) -> None: ...
     @property
     def ellipse(self) -> bool:
         """
@@ -988,6 +1176,20 @@ class AreaLight:
         """
     @ellipse.setter
     def ellipse(self, value: bool) -> None: ...
+    @property
+    def glossy_visible(self) -> bool:
+        """
+        it lights by glossy reflection, and mirrors see it
+        """
+    @glossy_visible.setter
+    def glossy_visible(self, value: bool) -> None: ...
+    @property
+    def max_bounces(self) -> int:
+        """
+        scatterings behind which surfaces aren't lit by it; in [0, 1024]
+        """
+    @max_bounces.setter
+    def max_bounces(self, value: int) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
@@ -1009,6 +1211,20 @@ class AreaLight:
         """
     @transform.setter
     def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def transmission_visible(self) -> bool:
+        """
+        it lights through glass, and is seen through it
+        """
+    @transmission_visible.setter
+    def transmission_visible(self, value: bool) -> None: ...
+    @property
+    def volume_visible(self) -> bool:
+        """
+        it lights volumes
+        """
+    @volume_visible.setter
+    def volume_visible(self, value: bool) -> None: ...
 
 class Environment:
     """

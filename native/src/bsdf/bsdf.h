@@ -15,9 +15,25 @@
 #include "geometry/surface_point.h"
 #include "math/color.h"
 #include "math/frame.h"
+#include "math/ray.h"
 #include "shading/material.h"
 
 namespace basicrt {
+
+// The RayKind of a ray that was scattered so; 0 for one that passed straight through and keeps its own.
+[[nodiscard]] inline std::uint32_t ray_kind(ScatterKind kind) {
+  switch (kind) {
+    case ScatterKind::diffuse:
+      return ray_diffuse;
+    case ScatterKind::glossy:
+      return ray_glossy;
+    case ScatterKind::transmission:
+      return ray_transmission;
+    case ScatterKind::transparent:
+      break;
+  }
+  return 0;
+}
 
 struct BsdfSample {
   Vec3f wi;       // world space
@@ -50,6 +66,7 @@ class Bsdf {
         albedo_(other.albedo_),
         selection_(other.selection_),
         has_only_deltas_(other.has_only_deltas_),
+        only_reflects_(other.only_reflects_),
         lobes_(other.lobes_) {}
 
   // Adds a lobe with a colour weight; black ones are left out. `albedo` is a guess of the share that the lobe itself
@@ -64,16 +81,24 @@ class Bsdf {
     selection_ += selection;
     albedo_ += share;
     has_only_deltas_ = has_only_deltas_ && lobe.is_delta();
+    only_reflects_ = only_reflects_ && (is_reflection<OneLobe> || lobe.is_delta());
   }
 
   // wo is the direction that the lobes were made for.
   [[nodiscard]] BsdfValue eval(Vec3f wo, Vec3f wi) const;
+  // The value of those scatterings only that rays of the given kinds (RayKind bits) follow; the density of all.
+  [[nodiscard]] BsdfValue eval_kinds(Vec3f wo, Vec3f wi, std::uint32_t kinds) const;
   // `choice` picks the lobe, `u` the direction. Nothing where the light is absorbed.
   [[nodiscard]] std::optional<BsdfSample> sample(Vec3f wo, float choice, Vec2f u) const;
 
   // Then eval() is zero everywhere and lights need not be sampled.
   [[nodiscard]] bool has_only_deltas() const { return has_only_deltas_; }
   [[nodiscard]] bool is_empty() const { return lobes_.count == 0; }
+  // Where all light must come from that eval() is to see: the side of a surface with this normal, of unit length. Zero
+  // where it may come from anywhere.
+  [[nodiscard]] Vec3f lit_side(Vec3f wo) const {
+    return only_reflects_ ? frame_.normal * (dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f) : Vec3f(0.0f);
+  }
   // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
 
@@ -81,6 +106,9 @@ class Bsdf {
   void set_frame(const Frame& shading_frame) { frame_ = shading_frame; }
 
  private:
+  template <class OneLobe>
+  static constexpr bool is_reflection = requires { OneLobe::reflection_kind; };
+
   struct WeightedLobe {
     Lobe lobe;
     Color weight;
@@ -125,7 +153,7 @@ class Bsdf {
   Vec3f geometric_normal_{0, 0, 1};
   Color albedo_{0.0f};
   float selection_ = 0;
-  bool has_only_deltas_ = true;
+  bool has_only_deltas_ = true, only_reflects_ = true;
   LobeList lobes_;
 };
 

@@ -17,20 +17,6 @@ float power_heuristic(float pdf, float other_pdf) {
   return 1 / (1 + ratio * ratio);
 }
 
-std::uint32_t ray_kind(ScatterKind kind) {
-  switch (kind) {
-    case ScatterKind::diffuse:
-      return ray_diffuse;
-    case ScatterKind::glossy:
-      return ray_glossy;
-    case ScatterKind::transmission:
-      return ray_transmission;
-    case ScatterKind::transparent:
-      break;  // keeps the kind that it had
-  }
-  return 0;
-}
-
 Ray up_to(Ray ray, const SurfacePoint& point) {
   ray.t_max = point.t;
   return ray;
@@ -69,6 +55,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     PixelSample& sample = samples[path.sample];
     if (!hit.is_hit()) {
       gather_lamps(path, ray, sample);
+      gather_distant_lamps(path, ray, sample);
       gather_environment(path, sample);
       continue;
     }
@@ -80,7 +67,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     const SurfaceShading shading = shade_at(scene_, point, -ray.direction);
     gather_emission(path, ray, point, shading.emission, sample);
     if (shading.bsdf.is_empty()) continue;
-    if (!path.is_last) sample_lights(path, ray, point, shading.bsdf);
+    if (!path.is_last) sample_lights(path, ray, point, shading.bsdf, sample);
     if (!scatter(path, ray, hit, point, shading.bsdf)) continue;
     rays_[kept] = ray;
     paths_[kept++] = path;
@@ -91,10 +78,17 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
 
 // Lamps do not block rays: each one between the ray's ends adds its light.
 void PathIntegrator::gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const {
-  scene_.lights.for_each_lamp_hit(ray, [&](const LightHit& hit) {
-    const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
-    sample.radiance += path.throughput * hit.radiance * weight;
-  });
+  scene_.lights.for_each_lamp_hit(ray, path.lit_side, [&](const LightHit& hit) { gather_lamp(path, hit, sample); });
+}
+
+// Those are behind everything, where a camera's clipping doesn't reach.
+void PathIntegrator::gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample) const {
+  scene_.lights.for_each_distant_hit(ray, path.lit_side, [&](const LightHit& hit) { gather_lamp(path, hit, sample); });
+}
+
+void PathIntegrator::gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample) {
+  const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
+  sample.radiance += path.throughput * hit.radiance * weight;
 }
 
 void PathIntegrator::gather_environment(const Path& path, PixelSample& sample) const {
@@ -110,19 +104,29 @@ void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const Sur
                                      PixelSample& sample) const {
   if (is_black(emission)) return;
   const float weight =
-      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, ray.origin));
+      path.is_specular ? 1
+                       : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, {ray.origin, path.lit_side}));
   sample.radiance += path.throughput * emission * weight;
 }
 
-void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf) {
+void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf,
+                                   PixelSample& sample) {
   if (bsdf.has_only_deltas() || scene_.lights.is_empty()) return;
   const float choice = path.sampler.next_1d();
-  const std::optional<LightSample> light = scene_.lights.sample(point.position, choice, path.sampler.next_2d());
-  if (!light) return;
-  const BsdfValue reflected = bsdf.eval(-ray.direction, light->wi);
+  const std::optional<LightSample> light =
+      scene_.lights.sample({point.position, bsdf.lit_side(-ray.direction)}, choice, path.sampler.next_2d());
+  if (!light || path.bounces.total > light->max_bounces) return;
+  constexpr std::uint32_t surface_kinds = ray_diffuse | ray_glossy | ray_transmission;
+  const BsdfValue reflected = (light->kinds & surface_kinds) == surface_kinds
+                                  ? bsdf.eval(-ray.direction, light->wi)
+                                  : bsdf.eval_kinds(-ray.direction, light->wi, light->kinds);
   const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, reflected.pdf);
   const Color radiance = path.throughput * reflected.value * light->radiance * (weight / light->pdf);
   if (is_black(radiance)) return;
+  if (!light->casts_shadows) {
+    sample.radiance += radiance;
+    return;
+  }
   append_result(shadow_rays_, [&] { return spawn_shadow_ray(point, light->wi, light->distance, ray.time); });
   connections_.push_back({path.sample, radiance, path.bounces.transparent});
 }
@@ -139,6 +143,7 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
     continue_behind(ray, hit, point);
     return true;
   }
+  path.lit_side = bsdf.lit_side(-ray.direction);
   ray = spawn_ray(point, scattered->wi, ray_kind(scattered->kind), ray.time);
   path.bsdf_pdf = scattered->pdf;
   path.is_specular = scattered->is_delta;

@@ -26,6 +26,7 @@ class PathIntegrator final : public Integrator {
     Sampler sampler;
     Color throughput{1.0f};
     Bounces bounces = {};
+    Vec3f lit_side = {};      // of the last scattering, as light was chosen for it: see LitPoint
     float bsdf_pdf = 0;       // of the last scattering's direction, over solid angle
     bool is_specular = true;  // no light sample could have found this ray (a camera ray, or after a delta lobe)
     bool is_last = false;     // only what the next surface emits still counts
@@ -45,10 +46,12 @@ class PathIntegrator final : public Integrator {
 
   // `ray` is the one that the path came by, up to the surface.
   void gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const;
+  void gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample) const;
+  static void gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample);
   void gather_environment(const Path& path, PixelSample& sample) const;
   void gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
                        PixelSample& sample) const;
-  void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf);
+  void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
   [[nodiscard]] bool scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const;
   [[nodiscard]] bool count_bounce(Path& path, ScatterKind kind) const;
   [[nodiscard]] bool survives_roulette(Path& path) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two steps: a triangle by its power, then a place on it.
+// A triangle is sampled as it lies in the world.
 #include "light/mesh_emitter.h"
 
 #include <numbers>
@@ -12,16 +12,29 @@ MeshEmitter::MeshEmitter(const EmissiveInstance& instance, const Mesh& mesh)
       is_mirrored_(instance.object_to_world.determinant() < 0),
       front_(instance.front),
       back_(instance.back) {
-  std::vector<double> powers(mesh.triangles.size());
-  for (std::uint32_t i = 0; i < powers.size(); ++i) {
-    const double radiance = double(luminance(front_[slot(i)])) + luminance(back_[slot(i)]);
-    if (radiance > 0) powers[i] = radiance * std::numbers::pi * world_triangle(i).area();
-  }
-  triangles_ = DiscreteDistribution(std::move(powers));
+  for (std::uint32_t i = 0; i < triangle_count(); ++i)
+    if (const double shed = radiance(i); shed > 0) power_ += shed * std::numbers::pi * world_triangle(i).area();
 }
 
-std::optional<LightSample> MeshEmitter::sample(Vec3f position, float choice, Vec2f u) const {
-  const auto [triangle, probability, remainder] = triangles_.choose(choice);
+LightBounds MeshEmitter::bounds(std::uint32_t triangle) const {
+  LightBounds bounds;
+  if (!(radiance(triangle) > 0)) return bounds;
+  const float front = luminance(front_[slot(triangle)]), back = luminance(back_[slot(triangle)]);
+  const EmitterTriangle corners = world_triangle(triangle);
+  const Vec3d across = corners.cross_product();
+  const double twice_area = length(across);
+  if (!(twice_area > 0)) return bounds;
+  for (const Vec3d corner : {corners.p0, corners.p1, corners.p2}) bounds.box.extend(Vec3f(corner));
+  const bool is_turned = (front > 0) == is_mirrored_;
+  bounds.axis = Vec3f(across * ((is_turned ? -1 : 1) / twice_area));
+  bounds.cos_normals = 1;
+  bounds.is_two_sided = front > 0 && back > 0;
+  const double intensity = std::max(front, back) * twice_area / 2;
+  bounds.intensity = static_cast<float>(std::min<double>(intensity, std::numeric_limits<float>::max()));
+  return bounds;
+}
+
+std::optional<LightSample> MeshEmitter::sample(std::uint32_t triangle, Vec3f position, Vec2f u) const {
   const EmitterTriangle corners = world_triangle(triangle);
   const std::optional<TrianglePlace> place = sample_triangle_emitter(corners, Vec3d(position), u);
   if (!place) return std::nullopt;
@@ -29,16 +42,18 @@ std::optional<LightSample> MeshEmitter::sample(Vec3f position, float choice, Vec
   return LightSample{.wi = Vec3f(place->offset / distance),
                      .distance = float(distance),
                      .radiance = radiance_along(place->offset, triangle, corners),
-                     .pdf = float(probability * place->pdf)};
+                     .pdf = float(place->pdf)};
 }
 
 double MeshEmitter::pdf(std::uint32_t triangle, Vec3f place, Vec3f position) const {
-  const double probability = triangles_.probability(triangle);
-  if (probability == 0) return 0;
   const EmitterTriangle corners = world_triangle(triangle);
   const Vec3d offset = Vec3d(place) - Vec3d(position);
   if (is_black(radiance_along(offset, triangle, corners))) return 0;
-  return probability * pdf_triangle_emitter(corners, Vec3d(position), offset);
+  return pdf_triangle_emitter(corners, Vec3d(position), offset);
+}
+
+double MeshEmitter::radiance(std::uint32_t triangle) const {
+  return double(luminance(front_[slot(triangle)])) + luminance(back_[slot(triangle)]);
 }
 
 EmitterTriangle MeshEmitter::world_triangle(std::uint32_t triangle) const {

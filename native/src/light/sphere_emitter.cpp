@@ -28,6 +28,18 @@ SphereEmitter::SphereEmitter(const EmissiveInstance& instance, const Sphere& sph
       power_(std::numbers::pi * surface_area(object_to_world_, sphere.radius) *
              (double(luminance(front_)) + luminance(back_))) {}
 
+LightBounds SphereEmitter::bounds() const {
+  const Vec3d center = object_to_world_.point(Vec3d(ball_.center));
+  const Vec3d x = object_to_world_.column(0), y = object_to_world_.column(1), z = object_to_world_.column(2);
+  const auto reach = [&](double a, double b, double c) { return std::sqrt(a * a + b * b + c * c); };
+  const Vec3d half = Vec3d{reach(x.x, y.x, z.x), reach(x.y, y.y, z.y), reach(x.z, y.z, z.z)} * double(ball_.radius);
+  // Seen from outside, a convex body shows a quarter of its surface on average.
+  const double intensity =
+      surface_area(object_to_world_, ball_.radius) / 4 * std::max(double(luminance(front_)), double(luminance(back_)));
+  return {.box = {Vec3f(center - half), Vec3f(center + half)},
+          .intensity = static_cast<float>(std::min<double>(intensity, std::numeric_limits<float>::max()))};
+}
+
 std::optional<LightSample> SphereEmitter::sample(Vec3f position, Vec2f u) const {
   const Vec3f local_position(world_to_object_.point(Vec3d(position)));
   const std::optional<BallSample> local = sample_ball(ball_, local_position, u);

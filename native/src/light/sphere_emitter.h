@@ -16,6 +16,7 @@ class SphereEmitter {
   SphereEmitter(const EmissiveInstance& instance, const Sphere& sphere);
 
   [[nodiscard]] double power() const { return power_; }  // watts, of the luminance
+  [[nodiscard]] LightBounds bounds() const;
   [[nodiscard]] std::optional<LightSample> sample(Vec3f position, Vec2f u) const;
   // The density of sample() for a place on the surface.
   [[nodiscard]] double pdf(Vec3f place, Vec3f position) const;

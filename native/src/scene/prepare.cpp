@@ -168,7 +168,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   std::vector<EmissiveInstance> emitters;
   for (std::uint32_t i = 0; i < prepared.instances.size(); ++i)
     if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i)) emitters.push_back(std::move(*emitter));
-  prepared.lights = LightSet(std::move(lamps), std::move(emitters), scene.environment, prepared.tracer.bounds());
+  prepared.lights = LightSet(std::move(lamps), std::move(emitters), scene.environment);
   return prepared;
 }
 

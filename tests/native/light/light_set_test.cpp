@@ -31,7 +31,7 @@ struct Scene {
                         .front = std::move(front),
                         .back = std::move(back)});
   }
-  [[nodiscard]] LightSet lights() const { return {lamps, emitters, environment, {Vec3f(-5), Vec3f(5)}}; }
+  [[nodiscard]] LightSet lights() const { return {lamps, emitters, environment}; }
 };
 
 Mesh triangle_mesh(Vec3f a, Vec3f b, Vec3f c) {
@@ -86,6 +86,13 @@ void for_each_surface_hit(const EmissiveInstance& emitter, Vec3d origin, Vec3d d
   visit_at(near > 0 ? near : far, 0);
 }
 
+template <class Visitor>
+void for_each_lamp_density(const LightSet& lights, Vec3f position, Vec3f wi, Visitor&& visit) {
+  const Ray ray{.origin = position, .direction = wi};
+  lights.for_each_lamp_hit(ray, Vec3f(0), visit);
+  lights.for_each_distant_hit(ray, Vec3f(0), visit);
+}
+
 ChiSquareResult compare_with_density(const Scene& scene, Vec3f position) {
   const LightSet lights = scene.lights();
   const auto sample = [&](Rng& rng) -> std::optional<Vec3f> {
@@ -96,7 +103,7 @@ ChiSquareResult compare_with_density(const Scene& scene, Vec3f position) {
   };
   const auto density = [&](Vec3f wi) {
     double sum = 0;
-    lights.for_each_lamp_hit({.origin = position, .direction = wi}, [&](const LightHit& hit) { sum += hit.pdf; });
+    for_each_lamp_density(lights, position, wi, [&](const LightHit& hit) { sum += hit.pdf; });
     for (const EmissiveInstance& emitter : scene.emitters)
       for_each_surface_hit(emitter, Vec3d(position), Vec3d(wi),
                            [&](const SurfacePoint& point) { sum += lights.pdf_surface(point, position); });
@@ -144,8 +151,7 @@ void add_a_bit_of_everything(Scene& scene, Rng& rng) {
 // Calls visit(source, distance, pdf) for everything in a direction; shapes come after the lamps.
 template <class Visitor>
 void for_each_density(const Scene& scene, const LightSet& lights, Vec3f position, Vec3f wi, Visitor&& visit) {
-  lights.for_each_lamp_hit({.origin = position, .direction = wi},
-                           [&](const LightHit& hit) { visit(0u, hit.t, hit.pdf); });
+  for_each_lamp_density(lights, position, wi, [&](const LightHit& hit) { visit(0u, hit.t, hit.pdf); });
   for (std::uint32_t i = 0; i < scene.emitters.size(); ++i)
     for_each_surface_hit(scene.emitters[i], Vec3d(position), Vec3d(wi), [&](const SurfacePoint& point) {
       visit(i + 1, length(point.position - position), lights.pdf_surface(point, position));
@@ -259,8 +265,8 @@ TEST(LightSet, each_side_has_its_own_radiance_under_mirrors_too) {
     // Wound to face +z in object space, which the mirror along x leaves alone.
     scene.add(triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), TransformD(scaling({mirror, 1, 1})), {red}, {blue});
     const LightSet lights = scene.lights();
-    const auto above = lights.sample({0, 0, 2}, 0.5f, {0.3f, 0.3f}),
-               below = lights.sample({0, 0, -2}, 0.5f, {0.3f, 0.3f});
+    const auto above = lights.sample(Vec3f{0, 0, 2}, 0.5f, {0.3f, 0.3f}),
+               below = lights.sample(Vec3f{0, 0, -2}, 0.5f, {0.3f, 0.3f});
     ASSERT_TRUE(above && below);
     EXPECT_EQ(above->radiance, red);
     EXPECT_EQ(below->radiance, blue);
@@ -271,13 +277,13 @@ TEST(LightSet, a_side_that_does_not_shine_is_neither_sampled_nor_expected) {
   Scene scene;
   scene.add(triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), {}, {Color(1)}, {Color(0.0f)});
   const LightSet lights = scene.lights();
-  EXPECT_TRUE(lights.sample({0, 0, 1}, 0.5f, {0.5f, 0.5f}));
-  EXPECT_FALSE(lights.sample({0, 0, -1}, 0.5f, {0.5f, 0.5f}));
+  EXPECT_TRUE(lights.sample(Vec3f{0, 0, 1}, 0.5f, {0.5f, 0.5f}));
+  EXPECT_FALSE(lights.sample(Vec3f{0, 0, -1}, 0.5f, {0.5f, 0.5f}));
   SurfacePoint point;
   point.position = {0.2f, 0.2f, 0};
   point.instance = 1;
-  EXPECT_GT(lights.pdf_surface(point, {0, 0, 1}), 0);
-  EXPECT_EQ(lights.pdf_surface(point, {0, 0, -1}), 0);
+  EXPECT_GT(lights.pdf_surface(point, Vec3f{0, 0, 1}), 0);
+  EXPECT_EQ(lights.pdf_surface(point, Vec3f{0, 0, -1}), 0);
 }
 
 TEST(LightSet, shapes_do_not_light_their_own_points) {
@@ -313,7 +319,7 @@ TEST(LightSet, probabilities_of_the_choice_sum_to_one) {
   const LightSet lights = scene.lights();
   double sum = 0;
   int hits = 0;
-  lights.for_each_lamp_hit({.origin = {0, 0, 0}, .direction = {0, 0, 1}}, [&](const LightHit& hit) {
+  for_each_lamp_density(lights, {0, 0, 0}, {0, 0, 1}, [&](const LightHit& hit) {
     sum += hit.pdf;
     ++hits;
   });
@@ -321,12 +327,34 @@ TEST(LightSet, probabilities_of_the_choice_sum_to_one) {
   EXPECT_NEAR(sum / light_pdf(scene.lamps[0], {0, 0, 0}, {0, 0, 1}), 1, 1e-5);
 }
 
+TEST(LightSet, rays_meet_lamps_among_many_and_among_black_ones) {
+  for (const int shining : {1, 2, 3, 40}) {
+    Scene scene;
+    for (int i = 0; i < 50; ++i)
+      scene.lamps.push_back(
+          PointLight{.position = {float(i), 0, 3}, .intensity = Color(i < shining ? 1.0f : 0.0f), .radius = 0.1f});
+    scene.lamps.push_back(SunLight{.direction = {0, 0, -1}, .angle = 0.1f});
+    const LightSet lights = scene.lights();
+    for (int i = 0; i < 50; ++i) {
+      int near = 0, distant = 0;
+      const Ray ray{.origin = {float(i), 0, 0}, .direction = {0, 0, 1}, .t_max = 100};
+      lights.for_each_lamp_hit(ray, Vec3f(0), [&](const LightHit& hit) {
+        ++near;
+        EXPECT_NEAR(hit.t, 2.9f, 1e-4);
+      });
+      lights.for_each_distant_hit(ray, Vec3f(0), [&](const LightHit&) { ++distant; });
+      EXPECT_EQ(near, i < shining ? 1 : 0) << shining;
+      EXPECT_EQ(distant, 1);  // whatever the ray's end
+    }
+  }
+}
+
 TEST(LightSet, one_light_alone_keeps_its_own_density) {
   const Light lamp = PointLight{.position = {0, 0, 3}, .radius = 1};
   Scene scene;
   scene.lamps = {lamp};
   const auto alone = sample_light(lamp, {0, 0, 0}, {0.2f, 0.3f});
-  const auto in_set = scene.lights().sample({0, 0, 0}, 0.9f, {0.2f, 0.3f});
+  const auto in_set = scene.lights().sample(Vec3f{0, 0, 0}, 0.9f, {0.2f, 0.3f});
   ASSERT_TRUE(alone && in_set);
   EXPECT_EQ(alone->wi, in_set->wi);
   EXPECT_EQ(alone->pdf, in_set->pdf);
@@ -346,7 +374,7 @@ TEST(LightSet, the_environment_alone_leaves_nothing_to_sample) {
   scene.environment.radiance = Color(1);
   const LightSet lights = scene.lights();
   EXPECT_TRUE(lights.is_empty());
-  EXPECT_FALSE(lights.sample({0, 0, 0}, 0.5f, {0.5f, 0.5f}));
+  EXPECT_FALSE(lights.sample(Vec3f{0, 0, 0}, 0.5f, {0.5f, 0.5f}));
   EXPECT_EQ(lights.pdf_environment(), 0);
   EXPECT_EQ(lights.environment().radiance, Color(1));
 }
@@ -358,7 +386,7 @@ TEST(LightSet, surfaces_that_do_not_shine_have_no_density) {
   for (const std::uint32_t instance : {0u, 2u, 1000u}) {
     SurfacePoint point;
     point.instance = instance;
-    EXPECT_EQ(lights.pdf_surface(point, {0, 0, 1}), 0) << instance;
+    EXPECT_EQ(lights.pdf_surface(point, Vec3f{0, 0, 1}), 0) << instance;
   }
 }
 
