@@ -64,7 +64,8 @@ void write_exr(const std::filesystem::path& path, const Film& film,
     if (film.layout().has(info.pass)) append_planes(planes, film, info);
 
   Imf::Header header(film.width(), film.height());
-  header.compression() = Imf::ZIP_COMPRESSION;
+  // Noise hardly gets any smaller: ZIP takes four times as long for a fifth less.
+  header.compression() = Imf::RLE_COMPRESSION;
   for (const Plane& plane : planes) header.channels().insert(plane.name, Imf::Channel(Imf::FLOAT));
   for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
 
