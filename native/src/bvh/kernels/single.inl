@@ -9,8 +9,9 @@ TreeReference visit_node_alone(Slot& slot, const TreeNode& node) {
   const unsigned met = children_within(entry, exit);
   if (met == 0) return slot.pop();
   if ((met & (met - 1)) == 0) return node.children[__builtin_ctz(met)];
-  Query::push(slot, node, entry, exit);
-  return slot.pop();
+  const TreeReference nearest = Query::push_but_nearest(slot, node, entry, exit);
+  prefetch_item(slot.items, *(slot.top - 1));
+  return nearest;
 }
 
 template <class Query>

@@ -181,7 +181,14 @@ struct NearestQuery {
 
   // Pushes the children that the ray meets.
   static void push(Slot& slot, const TreeNode& node, const Float8& entry, const Float8& exit) {
-    slot.top += push_children(node, slot.boxes.octant.order_shift, entry, exit, slot.top, slot.entries());
+    slot.top += push_children(node, slot.boxes.octant.order_shift, entry, exit, slot.top, slot.entries()).count;
+  }
+  // The same where it meets some, but returns the nearest. It is found in the node: sooner than on the stack, where it has just been written.
+  static TreeReference push_but_nearest(Slot& slot, const TreeNode& node, const Float8& entry, const Float8& exit) {
+    const std::uint32_t shift = slot.boxes.octant.order_shift;
+    const PushedChildren pushed = push_children(node, shift, entry, exit, slot.top, slot.entries());
+    slot.top += pushed.count - 1;
+    return node.children[node.order[pushed.nearest] >> shift & 7];
   }
 
   static bool take_hit(const KernelScene& scene, Slot& slot, const TriangleBlock& block, const TriangleHits& hits) {
@@ -207,6 +214,10 @@ struct AnyQuery {
   // In no order and without distances: what is met stays of interest till the end.
   static void push(Slot& slot, const TreeNode& node, const Float8& entry, const Float8& exit) {
     slot.top += push_any_children(node, entry, exit, slot.top);
+  }
+  static TreeReference push_but_nearest(Slot& slot, const TreeNode& node, const Float8& entry, const Float8& exit) {
+    push(slot, node, entry, exit);
+    return slot.pop();
   }
 
   static bool take_hit(const KernelScene&, Slot& slot, const TriangleBlock&, const TriangleHits& hits) {
