@@ -26,6 +26,8 @@ SHARED_PANELS = (
     "EEVEE_MATERIAL_PT_context_material",
     "EEVEE_MATERIAL_PT_surface",
     "EEVEE_WORLD_PT_surface",
+    "OBJECT_PT_shading",
+    "OBJECT_PT_shadow_terminator",
     "VIEWLAYER_PT_override",
 )
 
@@ -114,6 +116,26 @@ def light_strength(light: bpy.types.Light) -> tuple[float, float, float]:
 def is_light_normalized(light: bpy.types.Light) -> bool:
     """Whether a lamp's strength is its power whatever its size; always so before 4.5."""
     return bool(getattr(light, "normalize", True))
+
+
+def shadow_terminator_offset(b_object: bpy.types.Object) -> float:
+    """The geometry offset of shadow rays: Blender's own from 4.3 on, before that Cycles'."""
+    name = "shadow_terminator_geometry_offset"
+    data: Any = b_object
+    owner = data if hasattr(data, name) else getattr(data, "cycles", None)
+    return float(getattr(owner, name, 0.1))
+
+
+def light_max_bounces(light: bpy.types.Light) -> int:
+    """The bounces behind which a lamp lights nothing: a setting of Cycles, which may be switched off."""
+    return int(getattr(getattr(light, "cycles", None), "max_bounces", 1024))
+
+
+def is_portal(light: bpy.types.Light) -> bool:
+    """Whether an area lamp only guides Cycles' sampling of the world."""
+    return light.type == "AREA" and bool(
+        getattr(getattr(light, "cycles", None), "is_portal", False)
+    )
 
 
 def peak_memory_megabytes() -> float | None:

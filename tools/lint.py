@@ -10,7 +10,7 @@ from pathlib import Path
 import bootstrap
 from project import ROOT, Command, ToolError, relative, run, say
 
-CPP_FOLDERS = ("native", "tests/native", "benchmarks/native")
+CPP_FOLDERS = ("native", "tests/native", "tests/fuzz", "benchmarks/native")
 TYPED_FOLDERS = ("native/python/basicrt", "addon", "tools")
 
 

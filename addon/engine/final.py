@@ -110,7 +110,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.update_stats("", "Exporting")
         b_camera = self.camera_override or depsgraph.scene.camera
         evaluated = b_camera.evaluated_get(depsgraph) if b_camera else None
-        self.exported = scene_sync.export(depsgraph, evaluated, self.warnings)
+        self.exported = scene_sync.export(depsgraph, evaluated, self.warnings, self.frame_set)
         show_warnings(self.warnings)
 
     def _trace(self, exported: Export, depsgraph: Any) -> None:
@@ -174,7 +174,14 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.update_progress(progress.fraction)
         rate = progress.samples_per_second / 1e6
         remaining = time.strftime("%H:%M:%S", time.gmtime(progress.remaining_seconds))
-        self.update_stats("", f"{rate:.2f} M samples/s | Remaining {remaining}")
+        status = f"{rate:.2f} M samples/s | Remaining {remaining}"
+        if progress.is_time_up:
+            status = f"Time is up: {progress.samples_per_pixel:.0f} samples for each pixel"
+        elif progress.is_done:
+            status = (
+                f"{rate:.2f} M samples/s | {progress.samples_per_pixel:.0f} samples for each pixel"
+            )
+        self.update_stats("", status)
         peak = compat.peak_memory_megabytes()
         if peak is not None:
             self.update_memory_stats(memory_used=peak, memory_peak=peak)

@@ -10,6 +10,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 import basicrt
 
@@ -200,6 +201,11 @@ def _aperture(b_object: bpy.types.Object) -> dict[str, Any]:
     }
 
 
+def transform(b_object: bpy.types.Object) -> NDArray[np.float64]:
+    """Camera to world, (4, 4); the object's scale does not count."""
+    return np.array(b_object.matrix_world.normalized(), np.float64)
+
+
 def convert(
     b_object: bpy.types.Object, b_render: bpy.types.RenderSettings, report: Report
 ) -> Camera:
@@ -208,7 +214,7 @@ def convert(
     assert isinstance(b_camera, bpy.types.Camera)
     make, values = _kind(b_camera, b_render, f'camera "{b_object.name}"', report)
     return make(
-        transform=np.array(b_object.matrix_world.normalized(), np.float32),
+        transform=transform(b_object),
         clip_near=b_camera.clip_start,
         clip_far=b_camera.clip_end,
         **_aperture(b_object),

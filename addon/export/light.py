@@ -24,8 +24,11 @@ def convert(b_object: bpy.types.Object, matrix: Matrix, report: Report) -> Light
     """The lamp of an evaluated object placed by `matrix`; None where it can't shine."""
     b_light: Any = b_object.data
     item = f'light "{b_object.name}"'
-    if not b_light.use_shadow:
-        report.warn(item, "a lamp without shadows is not supported: it casts them")
+    if compat.is_portal(b_light):
+        report.warn(
+            item, "a portal gives no light and only guides Cycles' sampling: it is left out"
+        )
+        return None
     strength = compat.light_strength(b_light)
     emission = emission_of(b_light, report)
     if emission is not None:
@@ -36,8 +39,12 @@ def convert(b_object: bpy.types.Object, matrix: Matrix, report: Report) -> Light
         report.warn(item, "has no size, and so no light")
     else:
         light.camera_visible = b_object.visible_camera
-    if not (b_object.visible_diffuse and b_object.visible_glossy and b_object.visible_transmission):
-        report.warn(item, "hiding a lamp from other rays than the camera's is not supported")
+        light.diffuse_visible = b_object.visible_diffuse
+        light.glossy_visible = b_object.visible_glossy
+        light.transmission_visible = b_object.visible_transmission
+        light.volume_visible = b_object.visible_volume_scatter
+        light.casts_shadows = b_light.use_shadow
+        light.max_bounces = compat.light_max_bounces(b_light)
     return light
 
 

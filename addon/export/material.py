@@ -7,13 +7,13 @@ import bpy
 
 import basicrt
 
-from ..nodes import translate_surface
+from ..nodes import Textures, translate_surface
 from ..report import Report
 
 
-def convert(b_material: bpy.types.Material, report: Report) -> basicrt.Material:
-    """The surface of a material."""
-    return translate_surface(b_material, report)
+def convert(b_material: bpy.types.Material, report: Report, textures: Textures) -> basicrt.Material:
+    """The surface of a material; its textures go to `textures`."""
+    return translate_surface(b_material, report, textures)
 
 
 def slots(b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> list[bpy.types.Material | None]:

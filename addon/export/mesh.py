@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -18,6 +20,62 @@ Integers = NDArray[np.int32]
 def key(b_mesh: bpy.types.Mesh) -> int:
     """What tells evaluated meshes apart during one export; objects that share data share it."""
     return b_mesh.as_pointer()
+
+
+@dataclass(frozen=True)
+class Topology:
+    """What must stay the same while a mesh deforms."""
+
+    vertex_count: int
+    corner_vertices: Integers  # (L,) of the mesh's corners
+    triangle_corners: Integers  # (3T,) of each triangle, among the mesh's corners
+
+
+@dataclass(frozen=True)
+class Moment:
+    """Where the vertices are at one time: (V, 3), and (T, 3, 3) normals or None."""
+
+    positions: Floats
+    corner_normals: Floats | None
+
+
+def topology(b_mesh: bpy.types.Mesh) -> Topology:
+    """Of a mesh that has been converted."""
+    return Topology(
+        len(b_mesh.vertices), _attribute(b_mesh, ".corner_vert", "value", 1), _corners(b_mesh)
+    )
+
+
+def moment(b_mesh: bpy.types.Mesh, first: Topology) -> Moment | None:
+    """Where a mesh's vertices are now, None where it isn't the same mesh any more.
+
+    Triangles stay as they were first: Blender may cut polygons otherwise now.
+    """
+    is_same = len(b_mesh.vertices) == first.vertex_count and np.array_equal(
+        _attribute(b_mesh, ".corner_vert", "value", 1), first.corner_vertices
+    )
+    if not is_same:
+        return None
+    return Moment(
+        _attribute(b_mesh, "position", "vector", 3),
+        _corner_normals(b_mesh, first.triangle_corners),
+    )
+
+
+def deforming(still: basicrt.Mesh, moments: Sequence[Moment]) -> basicrt.Mesh | None:
+    """A mesh that goes through these moments, None where not all of them have normals or none has."""
+    normals = [moment.corner_normals for moment in moments if moment.corner_normals is not None]
+    if len(normals) not in (0, len(moments)):
+        return None
+    return basicrt.Mesh(
+        moments[0].positions,
+        still.triangles,
+        corner_normals=normals[0] if normals else None,
+        uvs=still.uvs,
+        material_slots=still.material_slots,
+        motion_positions=np.stack([moment.positions for moment in moments[1:]]),
+        motion_corner_normals=np.stack(normals[1:]) if normals else None,
+    )
 
 
 def convert_object(b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> basicrt.Mesh | None:
@@ -38,12 +96,9 @@ def convert(b_mesh: bpy.types.Mesh) -> basicrt.Mesh | None:
     rendering; material slots (T,) int32. Holds no reference to `b_mesh`. Raises basicrt.SceneError
     for numbers that are not finite.
     """
-    b_mesh.calc_loop_triangles()
-    triangle_count = len(b_mesh.loop_triangles)
-    if triangle_count == 0:
+    corners = _corners(b_mesh)
+    if corners.size == 0:
         return None
-    corners = np.empty(triangle_count * 3, np.int32)  # of each triangle, among the mesh's corners
-    b_mesh.loop_triangles.foreach_get("loops", corners)
     return basicrt.Mesh(
         _attribute(b_mesh, "position", "vector", 3),
         _attribute(b_mesh, ".corner_vert", "value", 1)[corners].reshape(-1, 3),
@@ -51,6 +106,14 @@ def convert(b_mesh: bpy.types.Mesh) -> basicrt.Mesh | None:
         uvs=_uvs(b_mesh, corners),
         material_slots=_material_slots(b_mesh),
     )
+
+
+def _corners(b_mesh: bpy.types.Mesh) -> Integers:
+    """(3T,): of each triangle, among the mesh's corners."""
+    b_mesh.calc_loop_triangles()
+    corners = np.empty(len(b_mesh.loop_triangles) * 3, np.int32)
+    b_mesh.loop_triangles.foreach_get("loops", corners)
+    return corners
 
 
 def _attribute(b_mesh: bpy.types.Mesh, name: str, member: str, width: int) -> NDArray[Any]:
@@ -72,6 +135,11 @@ def _corner_normals(b_mesh: bpy.types.Mesh, corners: Integers) -> Floats | None:
         return None
     normals: Floats = _read(b_mesh.corner_normals, "vector", 3, np.float32)
     return normals[corners].reshape(-1, 3, 3)
+
+
+def active_uv_map(b_mesh: bpy.types.Mesh) -> str:
+    """The name of the UV map that is exported, "" for none."""
+    return next((layer.name for layer in b_mesh.uv_layers if layer.active_render), "")
 
 
 def _uvs(b_mesh: bpy.types.Mesh, corners: Integers) -> Floats | None:

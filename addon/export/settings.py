@@ -13,6 +13,7 @@ from ..properties import settings_of
 from ..properties.choice import Choice
 from ..report import Report
 from .camera import resolution
+from .motion import shutter_curve
 
 # Native pass -> the view layer's switch; Combined has none, it is always made.
 _PASS_SWITCHES = {"Depth": "use_pass_z", "Normal": "use_pass_normal"}
@@ -53,6 +54,17 @@ def _seed(chosen: Choice, b_scene: bpy.types.Scene) -> int:
     return seed + (b_scene.frame_current << 32) if chosen.use_animated_seed else seed
 
 
+def _convert_filter(chosen: Choice, settings: basicrt.RenderSettings) -> None:
+    """Blender's width is half of the Blackman-Harris window, and 4 standard deviations of the Gaussian."""
+    width = chosen.filter_width
+    settings.filter_type = chosen.filter_type.lower()
+    settings.filter_radius = width
+    if chosen.filter_type == "BOX":
+        settings.filter_radius = 0.5
+    elif chosen.filter_type == "GAUSSIAN":
+        settings.filter_radius, settings.filter_falloff = 1.5 * width, 8.0 / width**2
+
+
 def convert(
     b_scene: bpy.types.Scene,
     b_view_layer: bpy.types.ViewLayer,
@@ -69,22 +81,30 @@ def convert(
 
     settings.samples = b_view_layer.samples or chosen.samples
     settings.seed = _seed(chosen, b_scene)
+    settings.adaptive_threshold = chosen.adaptive_threshold
+    settings.adaptive_min_samples = chosen.adaptive_min_samples
+    settings.time_limit = chosen.time_limit
+    settings.light_threshold = chosen.light_threshold
     settings.sampler = own.sampler.lower()
     settings.max_bounces = chosen.max_bounces
     settings.diffuse_bounces = chosen.diffuse_bounces
     settings.glossy_bounces = chosen.glossy_bounces
     settings.transmission_bounces = chosen.transmission_bounces
     settings.transparent_bounces = chosen.transparent_bounces
+    settings.clamp_direct, settings.clamp_indirect = chosen.clamp_direct, chosen.clamp_indirect
+    settings.blur_glossy = chosen.blur_glossy
+    settings.caustics_reflective = chosen.caustics_reflective
+    settings.caustics_refractive = chosen.caustics_refractive
     settings.bvh_builder = own.bvh_builder.lower()
 
-    settings.filter_type = chosen.filter_type.lower()
-    settings.filter_radius = 0.5 if chosen.filter_type == "BOX" else chosen.filter_width
+    _convert_filter(chosen, settings)
+    settings.film_transparent_glass = chosen.film_transparent_glass
+    settings.film_transparent_roughness = chosen.film_transparent_roughness
     settings.exposure = chosen.film_exposure
+    settings.shutter_curve = shutter_curve(b_render) if b_render.use_motion_blur else []
     settings.film_transparent = b_render.film_transparent
     settings.passes = [info.name for info in enabled_passes(b_view_layer)]
 
     item = f'scene "{b_scene.name}"'
-    if b_render.use_motion_blur:
-        report.warn(item, "motion blur is not supported: everything stands still")
     if b_render.use_multiview:
         report.warn(item, "stereoscopy is not supported: every view is the same")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's world: one colour from everywhere."""
+"""Blender's world: what surrounds the scene."""
 
 from __future__ import annotations
 
@@ -9,16 +9,18 @@ import bpy
 
 import basicrt
 
-from ..nodes import emission_of
+from ..nodes import Textures, translate_world
 from ..report import Report
 
 
-def convert(b_world: bpy.types.World | None, report: Report) -> basicrt.Environment:
-    """The environment of a world, black without one."""
+def convert(
+    b_world: bpy.types.World | None, report: Report, textures: Textures
+) -> basicrt.Environment:
+    """The environment of a world, black without one; its images are shared through `textures`."""
     if b_world is None:
-        return basicrt.Environment(radiance=(0.0, 0.0, 0.0))
-    emission = emission_of(b_world, report)
-    if emission is not None:
-        return basicrt.Environment(radiance=emission.radiance)
+        return basicrt.Environment()
+    environment = translate_world(b_world, report, textures)
+    if environment is not None:
+        return environment
     color: Any = b_world.color
     return basicrt.Environment(radiance=tuple(color))

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from .images import Textures
 from .translate import Emission, emission_of, translate_surface
+from .world import translate_world
 
-__all__ = ["Emission", "emission_of", "translate_surface"]
+__all__ = ["Emission", "Textures", "emission_of", "translate_surface", "translate_world"]

@@ -15,16 +15,20 @@ import basicrt
 from .. import compat
 from ..report import Report
 from .graph import Groups, Place, find_socket, trace
+from .images import Textures
 
 Color = tuple[float, float, float]
 NodeIndex = int | None
 ShaderFunction = Callable[["NodeView"], NodeIndex]
 ValueFunction = Callable[["NodeView"], float | Color]
+TextureFunction = Callable[["NodeView"], int]
 
 # bl_idname -> the function that translates such a node.
 SHADERS: dict[str, ShaderFunction] = {}
 # bl_idname -> the function that gives the value of a node's only output, where that is constant.
 VALUES: dict[str, ValueFunction] = {}
+# bl_idname -> the function that gives the index of such a node's texture in the scene.
+TEXTURES: dict[str, TextureFunction] = {}
 
 
 def shader(*bl_idnames: str) -> Callable[[ShaderFunction], ShaderFunction]:
@@ -47,6 +51,16 @@ def value(*bl_idnames: str) -> Callable[[ValueFunction], ValueFunction]:
     return register
 
 
+def texture(*bl_idnames: str) -> Callable[[TextureFunction], TextureFunction]:
+    """Decorates the function that makes these nodes' texture."""
+
+    def register(function: TextureFunction) -> TextureFunction:
+        TEXTURES.update(dict.fromkeys(bl_idnames, function))
+        return function
+
+    return register
+
+
 @dataclass
 class Translation:
     """A material in the making."""
@@ -54,6 +68,9 @@ class Translation:
     item: str  # what warnings name: `material "Glass"`
     report: Report
     material: basicrt.Material
+    textures: Textures
+    # Names of the UV maps that textures ask for.
+    uv_maps: set[str] = field(default_factory=set)
     # Nodes that are done: one node may feed several others.
     done: dict[tuple[int, ...], NodeIndex] = field(default_factory=dict)
 
@@ -80,6 +97,9 @@ class Translation:
             return view.add(
                 basicrt.EmissionShader(radiance=positive(as_color(view.output_value())))
             )
+        if view.bl_idname in TEXTURES:
+            reference = basicrt.TextureRef(TEXTURES[view.bl_idname](view))
+            return view.add(basicrt.EmissionShader(radiance=reference))
         self.warn(f"{view.title} is not supported: drawn as diffuse grey")
         return view.add(basicrt.DiffuseShader(color=(0.8, 0.8, 0.8), twosided=True))
 
@@ -114,12 +134,28 @@ class NodeView:
         """What a node of VALUES puts out."""
         return VALUES[self.bl_idname](self)
 
+    def constant_output(self) -> float | Color | None:
+        """output_value(), None for another node."""
+        return self.output_value() if self.bl_idname in VALUES else None
+
     def number(self, identifier: str, lowest: float = 0.0, highest: float = math.inf) -> float:
         """The value of an input, within limits beyond which Blender's own renderers don't go."""
         return min(max(as_number(self._value(identifier)), lowest), highest)
 
-    def color(self, identifier: str) -> Color:
+    def vector(self, identifier: str) -> Color:
+        """The three numbers of an input."""
+        return as_color(self._value(identifier))
+
+    def share(self, identifier: str) -> float | basicrt.TextureRef:
+        """A number in [0, 1] that may vary."""
+        reference = self._texture_at(identifier, is_share=True)
+        return self.number(identifier, 0, 1) if reference is None else reference
+
+    def color(self, identifier: str) -> Color | basicrt.TextureRef:
         """A colour that reflects or lets through: each channel in [0, 1]."""
+        reference = self._texture_at(identifier)
+        if reference is not None:
+            return reference
         color = as_color(self._value(identifier))
         if max(color) > 1.0:
             self.warn(f"{identifier} reflects more light than it receives: limited to 1")
@@ -128,6 +164,14 @@ class NodeView:
     def light(self, identifier: str) -> Color:
         """A colour that shines: at least 0."""
         return positive(as_color(self._value(identifier)))
+
+    def radiance(self, color: str, strength: str) -> tuple[Color | basicrt.TextureRef, float]:
+        """A colour that shines and may vary, and what multiplies it: 1 where the colour is constant."""
+        factor = self.number(strength)
+        reference = self._texture_at(color)
+        if reference is not None:
+            return reference, factor
+        return scaled(self.light(color), factor), 1.0
 
     def shader(self, identifier: str) -> NodeIndex:
         """The shader at an input, None where nothing is linked."""
@@ -148,6 +192,19 @@ class NodeView:
             source = trace(Place(socket, self.groups)).socket
             if source.is_output or (harmless is not None and _raw_value(source) != harmless):
                 self.warn(f"{identifier} is not supported and left out")
+
+    def _texture_at(self, identifier: str, is_share: bool = False) -> basicrt.TextureRef | None:
+        """The texture that is linked to an input, None where none is."""
+        socket = find_socket(self.node.inputs, identifier)
+        source = trace(Place(socket, self.groups)) if socket else None
+        node: Any = source.socket.node if source and source.socket.is_output else None
+        if node is None or source is None or node.bl_idname not in TEXTURES:
+            return None
+        is_alpha = source.socket.identifier == "Alpha"
+        if is_alpha and not is_share:
+            return None
+        view = NodeView(node, source.groups, self.translation)
+        return basicrt.TextureRef(TEXTURES[node.bl_idname](view), alpha=is_alpha)
 
     def _value(self, identifier: str) -> float | Color:
         """An input's constant value; its own, with a warning, where the link can't be evaluated."""

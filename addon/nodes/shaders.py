@@ -7,7 +7,7 @@ from typing import Any
 
 import basicrt
 
-from .node_view import NodeIndex, NodeView, scaled, shader
+from .node_view import NodeIndex, NodeView, shader
 
 WHITE = (1.0, 1.0, 1.0)
 
@@ -83,16 +83,21 @@ def transparent(view: NodeView) -> NodeIndex:
 @shader("ShaderNodeEmission")
 def emission(view: NodeView) -> NodeIndex:
     """Shines on both sides."""
-    radiance = scaled(view.light("Color"), view.number("Strength"))
-    return view.add(basicrt.EmissionShader(radiance=radiance, twosided=True))
+    radiance, strength = view.radiance("Color", "Strength")
+    return view.add(basicrt.EmissionShader(radiance=radiance, strength=strength, twosided=True))
+
+
+@shader("ShaderNodeHoldout")
+def holdout(view: NodeView) -> NodeIndex:
+    """A hole in the picture."""
+    return view.add(basicrt.HoldoutShader())
 
 
 @shader("ShaderNodeMixShader")
 def mix(view: NodeView) -> NodeIndex:
     """The first where the factor is 0, the second where it is 1."""
     first, second = view.shader("Shader"), view.shader("Shader_001")
-    factor = view.number("Fac", 0, 1)
-    return view.add(basicrt.MixShader(factor=factor, first=first, second=second))
+    return view.add(basicrt.MixShader(factor=view.share("Fac"), first=first, second=second))
 
 
 @shader("ShaderNodeAddShader")
@@ -116,6 +121,7 @@ def principled(view: NodeView) -> NodeIndex:
         Thin_Wall=0.0,
         Normal=None,
     )
+    emission, emission_strength = view.radiance("Emission Color", "Emission Strength")
     ior = view.number("IOR")
     if ior < 1.0:
         view.warn("an IOR below 1 is drawn as 1")
@@ -127,8 +133,9 @@ def principled(view: NodeView) -> NodeIndex:
             ior=max(ior, 1.0),
             transmission=view.number("Transmission Weight", 0, 1),
             specular_ior_level=view.number("Specular IOR Level", 0, 1),
-            emission=scaled(view.light("Emission Color"), view.number("Emission Strength")),
-            alpha=view.number("Alpha", 0, 1),
+            emission=emission,
+            emission_strength=emission_strength,
+            alpha=view.share("Alpha"),
             distribution=_distribution(view),
         )
     )
@@ -169,9 +176,7 @@ def ray_portal(view: NodeView) -> NodeIndex:
     return view.add(basicrt.TransparentShader(color=view.color("Color")))
 
 
-@shader("ShaderNodeHoldout", "ShaderNodeBackground")
-def black(view: NodeView) -> NodeIndex:
-    """A background on a surface is black in Blender too; a holdout is black without its alpha."""
-    if view.bl_idname == "ShaderNodeHoldout":
-        view.warn("not supported: drawn black and opaque")
+@shader("ShaderNodeBackground")
+def black(_view: NodeView) -> NodeIndex:
+    """A background on a surface is black in Blender too."""
     return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whole node trees: a material's surface, and the light that a world or a lamp gives off."""
+"""Whole node trees: a material's surface, and the light that a lamp gives off."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ import basicrt
 
 from .. import compat
 from ..report import Report
-from . import shaders, values
+from . import shaders, textures, values
 from .graph import Place, find_socket, trace
+from .images import Textures
 from .node_view import Color, NodeView, Translation, scaled, unit
 
 # Imported to fill the tables of functions.
 assert shaders
+assert textures
 assert values
 
 
@@ -27,21 +29,26 @@ class Emission:
     radiance: Color
 
 
-def _output_place(tree: bpy.types.ShaderNodeTree, identifier: str) -> Place | None:
+def output_place(tree: bpy.types.ShaderNodeTree, identifier: str) -> Place | None:
     """An input of the output node that counts for a path tracer."""
     output = tree.get_output_node("CYCLES")
     socket = find_socket(output.inputs, identifier) if output else None
     return Place(socket, ()) if socket else None
 
 
-def _is_linked(tree: bpy.types.ShaderNodeTree, identifier: str) -> bool:
+def is_linked(tree: bpy.types.ShaderNodeTree, identifier: str) -> bool:
     """Whether something arrives at an input of the output node."""
-    place = _output_place(tree, identifier)
+    place = output_place(tree, identifier)
     return place is not None and trace(place).socket.is_output
 
 
-def translate_surface(b_material: bpy.types.Material, report: Report) -> basicrt.Material:
-    """The surface of a material, with a warning for each thing that is not as in Blender."""
+def translate_surface(
+    b_material: bpy.types.Material, report: Report, store: Textures
+) -> basicrt.Material:
+    """The surface of a material, with a warning for each thing that is not as in Blender.
+
+    Its textures are added to `store`.
+    """
     material = basicrt.Material(name=b_material.name)
     with compat.inlined_nodes(b_material) as tree:
         if tree is None:
@@ -49,26 +56,26 @@ def translate_surface(b_material: bpy.types.Material, report: Report) -> basicrt
             color = unit((float(red), float(green), float(blue)))
             material.surface = material.add(basicrt.DiffuseShader(color=color, twosided=True))
             return material
-        translation = Translation(f'material "{b_material.name}"', report, material)
+        translation = Translation(f'material "{b_material.name}"', report, material, store)
         for identifier in ("Volume", "Displacement"):
-            if _is_linked(tree, identifier):
+            if is_linked(tree, identifier):
                 translation.warn(f"{identifier} is not supported and left out")
-        place = _output_place(tree, "Surface")
+        place = output_place(tree, "Surface")
         if place is not None:
             material.surface = translation.shader_at(place)
+        if translation.uv_maps:
+            store.uv_maps[b_material.name] = translation.uv_maps
     return material
 
 
-def emission_of(b_owner: bpy.types.World | bpy.types.Light, report: Report) -> Emission | None:
-    """What the nodes of a world or a lamp give off; None where they are not in use."""
-    kind = "world" if isinstance(b_owner, bpy.types.World) else "light"
-    with compat.inlined_nodes(b_owner) as tree:
+def emission_of(b_light: bpy.types.Light, report: Report) -> Emission | None:
+    """What the nodes of a lamp give off; None where they are not in use."""
+    with compat.inlined_nodes(b_light) as tree:
         if tree is None:
             return None
-        translation = Translation(f'{kind} "{b_owner.name}"', report, basicrt.Material())
-        if _is_linked(tree, "Volume"):
-            translation.warn("Volume is not supported and left out")
-        return _emission_at(translation, _output_place(tree, "Surface"))
+        nowhere = Textures(basicrt.Scene())
+        translation = Translation(f'light "{b_light.name}"', report, basicrt.Material(), nowhere)
+        return _emission_at(translation, output_place(tree, "Surface"))
 
 
 def _emission_at(translation: Translation, place: Place | None) -> Emission:
@@ -77,7 +84,7 @@ def _emission_at(translation: Translation, place: Place | None) -> Emission:
     if source is None or not source.socket.is_output or source.socket.node is None:
         return Emission((0.0, 0.0, 0.0))
     view = NodeView(source.socket.node, source.groups, translation)
-    if view.bl_idname in ("ShaderNodeEmission", "ShaderNodeBackground"):
+    if view.bl_idname == "ShaderNodeEmission":
         return Emission(scaled(view.light("Color"), view.number("Strength")))
     translation.warn(f"{view.title} is not supported: black instead")
     return Emission((0.0, 0.0, 0.0))

@@ -44,15 +44,26 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         samples: int
         seed: int
         use_animated_seed: bool
+        adaptive_threshold: float
+        adaptive_min_samples: int
+        time_limit: float
+        light_threshold: float
         sampler: str
         max_bounces: int
         diffuse_bounces: int
         glossy_bounces: int
         transmission_bounces: int
         transparent_bounces: int
+        clamp_direct: float
+        clamp_indirect: float
+        blur_glossy: float
+        caustics_reflective: bool
+        caustics_refractive: bool
         filter_type: str
         filter_width: float
         film_exposure: float
+        film_transparent_glass: bool
+        film_transparent_roughness: float
         tile_size: int
         bvh_builder: str
     else:
@@ -64,7 +75,8 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         )
         samples: IntProperty(
             name="Samples",
-            description="Paths traced for each pixel; twice the noise needs a quarter of them",
+            description="Paths traced for each pixel; twice the noise needs a quarter of them. With a "
+            "noise threshold or a time limit, the most of them",
             default=128,
             min=1,
             max=1 << 24,
@@ -81,6 +93,47 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
             description="Other noise in each frame",
             default=False,
         )
+        adaptive_threshold: FloatProperty(
+            name="Noise Threshold",
+            description="A pixel gets no more samples where its noise is below this, relative to the "
+            "root of its brightness. 0 gives every pixel all samples",
+            default=0.0,
+            min=0.0,
+            max=1.0,
+            soft_max=0.1,
+            step=0.1,
+            precision=4,
+        )
+        adaptive_min_samples: IntProperty(
+            name="Min Samples",
+            description="Samples that every pixel gets before its noise is looked at. 0 chooses by "
+            "the noise threshold",
+            default=0,
+            min=0,
+            max=1 << 24,
+            soft_max=4096,
+        )
+        time_limit: FloatProperty(
+            name="Time Limit",
+            description="Seconds after which no more samples are started, without exporting and "
+            "building trees. 0 is no limit",
+            default=0.0,
+            min=0.0,
+            soft_max=3600.0,
+            step=100,
+            unit="TIME_ABSOLUTE",
+        )
+        light_threshold: FloatProperty(
+            name="Light Threshold",
+            description="Light that would add less than this is looked at by chance only, in "
+            "proportion: saves time where there are many faint lights, for a little more noise. 0 "
+            "looks at all",
+            default=0.0,
+            min=0.0,
+            max=1.0,
+            soft_max=0.1,
+            precision=4,
+        )
         sampler: EnumProperty(
             name="Sampler",
             description="How a pixel's samples are spread over all that they may meet",
@@ -93,6 +146,55 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         transmission_bounces: _bounces("Transmission", 12, "Most refractions of a path")
         transparent_bounces: _bounces(
             "Transparent", 8, "Most transparent surfaces that a ray passes straight through"
+        )
+        clamp_direct: FloatProperty(
+            name="Direct Light",
+            description="The most that a sample may add of light that surfaces in view get from "
+            "lights, as the mean of red, green and blue. Takes away fireflies and light. 0 is no limit",
+            default=0.0,
+            min=0.0,
+            max=1e8,
+            soft_max=100.0,
+        )
+        clamp_indirect: FloatProperty(
+            name="Indirect Light",
+            description="The most that a sample may add of light that was scattered more often, as "
+            "the mean of red, green and blue. Takes away fireflies and light. 0 is no limit",
+            default=0.0,
+            min=0.0,
+            max=1e8,
+            soft_max=100.0,
+        )
+        blur_glossy: FloatProperty(
+            name="Filter Glossy",
+            description="Mirrors and glass that are seen by way of rough or diffuse surfaces are "
+            "made rougher: caustics blur and have less noise. 0 leaves them as they are",
+            default=0.0,
+            min=0.0,
+            max=10.0,
+        )
+        caustics_reflective: BoolProperty(
+            name="Reflective Caustics",
+            description="Light that reaches diffuse surfaces by way of glossy reflection",
+            default=True,
+        )
+        caustics_refractive: BoolProperty(
+            name="Refractive Caustics",
+            description="Light that reaches diffuse surfaces through glass",
+            default=True,
+        )
+        film_transparent_glass: BoolProperty(
+            name="Transparent Glass",
+            description="With a transparent film, what is seen of the background through glass is "
+            "transparent too",
+            default=False,
+        )
+        film_transparent_roughness: FloatProperty(
+            name="Roughness Threshold",
+            description="Glass that is rougher stays opaque",
+            default=0.1,
+            min=0.0,
+            max=1.0,
         )
         filter_type: EnumProperty(
             name="Pixel Filter",

@@ -13,9 +13,11 @@ import numpy as np
 import basicrt
 
 from .. import compat
-from ..export import camera, light, material, mesh, settings, visibility, world
+from ..export import camera, light, material, mesh, motion, settings, visibility, world
 from ..export.identity import uid
+from ..nodes import Textures
 from ..report import ExportError, Report
+from .motion import FrameSet, MotionExport, set_frame
 
 # Kinds of objects that Blender would draw and BasicRT doesn't. (Curves, text and the like come as
 # meshes too.)
@@ -41,33 +43,75 @@ class Export:
 
 
 def export(
-    depsgraph: bpy.types.Depsgraph, b_camera: bpy.types.Object | None, report: Report
+    depsgraph: bpy.types.Depsgraph,
+    b_camera: bpy.types.Object | None,
+    report: Report,
+    frame_set: FrameSet | None = None,
 ) -> Export:
     """The scene that a view layer shows to an (evaluated) camera.
 
-    Raises ExportError, naming the culprit, where nothing can be rendered.
+    With motion blur it is evaluated at several frames by `frame_set`, and left at the one that it was
+    at; without that function everything stands still. Raises ExportError, naming the culprit, where
+    nothing can be rendered.
     """
-    b_scene: Any = depsgraph.scene_eval
-    b_view_layer: Any = depsgraph.view_layer_eval
+    b_scene: Any = depsgraph.scene
+    b_view_layer: Any = depsgraph.view_layer
     if b_camera is None:
         raise ExportError(f'scene "{b_scene.name}" has no camera: choose one in Scene > Camera')
+    shutter = motion.shutter(b_scene, b_view_layer)
     exported = Export()
+    if shutter is None or frame_set is None:
+        _fill(exported, depsgraph, b_camera, report, None)
+        return exported
+    frame = b_scene.frame_current_final
+    b_original: Any = b_camera.original
+    movement = MotionExport(exported.scene, shutter, report)
+    try:
+        if shutter.center != frame:
+            set_frame(frame_set, shutter.center)
+        _fill(exported, depsgraph, b_original.evaluated_get(depsgraph), report, movement)
+        movement.follow(depsgraph, b_original, frame_set)
+    finally:
+        set_frame(frame_set, frame)
+    return exported
+
+
+def _fill(
+    exported: Export,
+    depsgraph: bpy.types.Depsgraph,
+    b_camera: bpy.types.Object,
+    report: Report,
+    movement: MotionExport | None,
+) -> None:
+    """The scene as it is evaluated now; what may move is noted in `movement`."""
+    b_scene: Any = depsgraph.scene_eval
+    b_view_layer: Any = depsgraph.view_layer_eval
     scene = exported.scene
     settings.convert(b_scene, b_view_layer, scene.settings, report)
     scene.camera = camera.convert(b_camera, b_scene.render, report)
-    scene.environment = world.convert(compat.view_layer_world(b_scene, b_view_layer), report)
-    _InstanceExport(exported, depsgraph, report).run()
-    return exported
+    textures = Textures(scene)
+    b_world = compat.view_layer_world(b_scene, b_view_layer)
+    scene.environment = world.convert(b_world, report, textures)
+    _InstanceExport(exported, depsgraph, report, textures, movement).run()
 
 
 class _InstanceExport:
     """Goes over the dependency graph once; what several instances share is converted once."""
 
-    def __init__(self, exported: Export, depsgraph: bpy.types.Depsgraph, report: Report) -> None:
+    def __init__(
+        self,
+        exported: Export,
+        depsgraph: bpy.types.Depsgraph,
+        report: Report,
+        textures: Textures,
+        movement: MotionExport | None,
+    ) -> None:
         self._scene = exported.scene
         self._names = exported.names
         self._depsgraph = depsgraph
         self._report = report
+        self._textures = textures
+        self._movement = movement
         self._shapes: dict[int, int | None] = {}
         self._materials: dict[int, int] = {}
         # By the numbers of an object and of what instances it, and by the mesh's key.
@@ -106,23 +150,26 @@ class _InstanceExport:
         if np.linalg.det(transform[:3, :3].astype(np.float32)) == 0.0:
             self._warn(b_object, "scaled to nothing along an axis: left out")
             return
-        self._scene.instances.append(
+        instance = self._scene.instances.append(
             basicrt.Instance(
                 shape=shape,
                 transform=transform,
                 materials=self._materials_of(b_object, b_mesh),
                 name=b_object.name,
                 visibility=self._visibility_of(b_instance, b_object),
+                holdout=self._is_holdout(b_instance, b_object),
+                shadow_catcher=self._is_shadow_catcher(b_instance, b_object),
+                shadow_terminator_offset=compat.shadow_terminator_offset(b_object),
             )
         )
+        if self._movement is not None:
+            self._movement.note(b_instance, self._depsgraph.scene_eval, instance, shape)
 
     def _shape_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> int | None:
         """The index of a mesh's shape, None where it has no faces."""
         key = mesh.key(b_mesh)
         if key not in self._shapes:
             self._shapes[key] = self._new_shape(b_object, b_mesh)
-            if b_object.is_holdout or b_object.is_shadow_catcher:
-                self._warn(b_object, "holdouts and shadow catchers are not supported: drawn as is")
         return self._shapes[key]
 
     def _new_shape(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> int | None:
@@ -145,7 +192,26 @@ class _InstanceExport:
             override = b_view_layer.material_override
             materials = [override] if override else material.slots(b_object, b_mesh)
             self._slots[key] = [self._material(b_material) for b_material in materials]
+            self._check_uv_maps(b_object, b_mesh, materials)
         return self._slots[key]
+
+    def _check_uv_maps(
+        self,
+        b_object: bpy.types.Object,
+        b_mesh: bpy.types.Mesh,
+        materials: list[bpy.types.Material | None],
+    ) -> None:
+        """Tell of UV maps that materials name and that are not the one that a mesh is exported with."""
+        active = mesh.active_uv_map(b_mesh)
+        for b_material in materials:
+            for name in sorted(
+                self._textures.uv_maps.get(b_material.name, ()) if b_material else ()
+            ):
+                if name != active:
+                    self._report.warn(
+                        f'object "{b_object.name}"',
+                        f'the UV map "{name}" is not the one that is active for rendering, which is used instead',
+                    )
 
     def _material(self, b_material: bpy.types.Material | None) -> int | None:
         """The index of a material, None for none."""
@@ -153,10 +219,25 @@ class _InstanceExport:
             return None
         key = uid(b_material)
         if key not in self._materials:
-            converted = material.convert(b_material, self._report)
+            converted = material.convert(b_material, self._report, self._textures)
             self._names["materials"].append(f'material "{b_material.name}"')
             self._materials[key] = self._scene.materials.append(converted)
         return self._materials[key]
+
+    def _is_holdout(
+        self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object
+    ) -> bool:
+        """Whether it is a hole in the picture: itself, what instances it, or a collection of it."""
+        b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
+        in_collection = b_root.original.holdout_get(view_layer=self._depsgraph.view_layer)
+        return bool(b_object.is_holdout or b_root.is_holdout or in_collection)
+
+    def _is_shadow_catcher(
+        self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object
+    ) -> bool:
+        """Whether only shadows on it are seen: itself or what instances it says so."""
+        b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
+        return bool(b_object.is_shadow_catcher or b_root.is_shadow_catcher)
 
     def _visibility_of(
         self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object

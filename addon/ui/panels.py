@@ -38,6 +38,8 @@ class _Panel:
 def _draw(column: Any, context: Any, name: str) -> None:
     """One of our settings, or Cycles' where that is the one that counts."""
     source = Choice(context.scene).source(name)
+    if source.is_cycles and name == "adaptive_threshold":
+        column.prop(source.owner, "use_adaptive_sampling", text="Adaptive Sampling (Cycles)")
     label = settings_of(context.scene).bl_rna.properties[name].name
     text = f"{label} (Cycles)" if source.is_cycles else label
     column.prop(source.owner, source.name, text=text)
@@ -51,12 +53,15 @@ class BASICRT_RENDER_PT_sampling(_Panel, bpy.types.Panel):
     def draw(self, context: Any) -> None:
         """Blender's callback."""
         column = self.column()
-        _draw(column, context, "samples")
+        for name in ("adaptive_threshold", "samples", "adaptive_min_samples", "time_limit"):
+            _draw(column, context, name)
+        column.separator()
         row = column.row(align=True)
         _draw(row, context, "seed")
         source = Choice(context.scene).source("use_animated_seed")
         row.prop(source.owner, source.name, icon_only=True, icon="TIME")
         _draw(column, context, "sampler")
+        _draw(column, context, "light_threshold")
 
 
 class BASICRT_RENDER_PT_cycles(_Panel, bpy.types.Panel):
@@ -93,6 +98,34 @@ class BASICRT_RENDER_PT_light_paths(_Panel, bpy.types.Panel):
             _draw(column, context, f"{kind}_bounces")
 
 
+class BASICRT_RENDER_PT_clamping(_Panel, bpy.types.Panel):
+    """Less noise for less light."""
+
+    bl_label = "Clamping"
+    bl_parent_id = "BASICRT_RENDER_PT_light_paths"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        _draw(column, context, "clamp_direct")
+        _draw(column, context, "clamp_indirect")
+
+
+class BASICRT_RENDER_PT_caustics(_Panel, bpy.types.Panel):
+    """Which caustics there are."""
+
+    bl_label = "Caustics"
+    bl_parent_id = "BASICRT_RENDER_PT_light_paths"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        for name in ("blur_glossy", "caustics_reflective", "caustics_refractive"):
+            _draw(column, context, name)
+
+
 class BASICRT_RENDER_PT_film(_Panel, bpy.types.Panel):
     """What a pixel is."""
 
@@ -104,11 +137,37 @@ class BASICRT_RENDER_PT_film(_Panel, bpy.types.Panel):
         column = self.column()
         _draw(column, context, "film_exposure")
         column.prop(context.scene.render, "film_transparent", text="Transparent")
+        glass = column.column()
+        glass.active = context.scene.render.film_transparent
+        _draw(glass, context, "film_transparent_glass")
+        row = glass.row()
+        row.active = Choice(context.scene).film_transparent_glass
+        _draw(row, context, "film_transparent_roughness")
         column.separator()
         _draw(column, context, "filter_type")
         row = column.row()
         row.active = Choice(context.scene).filter_type != "BOX"
         _draw(row, context, "filter_width")
+
+
+class BASICRT_RENDER_PT_motion_blur(_Panel, bpy.types.Panel):
+    """How long the shutter is open."""
+
+    bl_label = "Motion Blur"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context: Any) -> None:
+        """Blender's callback."""
+        self.layout.prop(context.scene.render, "use_motion_blur", text="")
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        render = context.scene.render
+        column.active = render.use_motion_blur
+        column.prop(render, "motion_blur_position", text="Position")
+        column.prop(render, "motion_blur_shutter")
+        column.template_curve_mapping(render, "motion_blur_shutter_curve")
 
 
 class BASICRT_RENDER_PT_performance(_Panel, bpy.types.Panel):
@@ -183,6 +242,8 @@ class BASICRT_OBJECT_PT_ray_visibility(_Panel, bpy.types.Panel):
         if context.object.type != "LIGHT":
             for kind in ("diffuse", "glossy", "transmission", "shadow"):
                 column.prop(context.object, f"visible_{kind}", text=kind.capitalize())
+            column.prop(context.object, "is_shadow_catcher")
+            column.prop(context.object, "is_holdout")
 
 
 # What each panorama_type has beside its name; Blender shows it for Cycles alone.
@@ -228,7 +289,10 @@ _PANELS = (
     BASICRT_RENDER_PT_sampling,
     BASICRT_RENDER_PT_cycles,
     BASICRT_RENDER_PT_light_paths,
+    BASICRT_RENDER_PT_clamping,
+    BASICRT_RENDER_PT_caustics,
     BASICRT_RENDER_PT_film,
+    BASICRT_RENDER_PT_motion_blur,
     BASICRT_RENDER_PT_performance,
     BASICRT_RENDER_PT_warnings,
     BASICRT_VIEWLAYER_PT_passes,

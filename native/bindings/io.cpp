@@ -33,7 +33,7 @@ Image read_exr_in_python(const std::filesystem::path& path, const ExrReader& rea
   return {.width = static_cast<int>(pixels.shape(1)),
           .height = static_cast<int>(pixels.shape(0)),
           .channels = static_cast<int>(pixels.shape(2)),
-          .pixels = {pixels.data(), pixels.data() + pixels.size()},
+          .pixels = std::vector<float>(pixels.data(), pixels.data() + pixels.size()),
           .path = path.string()};
 }
 

@@ -15,6 +15,7 @@ void register_materials(py::module_& m) {
   bind_described<GlassShader>(m, "GlassShader", "Fresnel reflection and refraction.");
   bind_described<TransparentShader>(m, "TransparentShader", "Light passes straight through, tinted.");
   bind_described<EmissionShader>(m, "EmissionShader", "A surface that shines.");
+  bind_described<HoldoutShader>(m, "HoldoutShader", "A hole in the picture for what the camera sees.");
   bind_described<PrincipledShader>(m, "PrincipledShader", "Blender's Principled BSDF with constant values.");
   bind_described<MixShader>(m, "MixShader", "A blend of two nodes; None is black and opaque.");
   bind_described<AddShader>(m, "AddShader", "The sum of two nodes; None is black and opaque.");

@@ -65,7 +65,18 @@ void bind_instance(py::module_& m) {
          const auto bits = PythonValue<std::int64_t>::read(value, item);
          if (bits < 0 || bits > ray_all) refuse_value(item, "must be RayKind bits", value);
          self.visibility = static_cast<std::uint32_t>(bits);
-       }}};
+       }},
+      make_attribute(
+          field("motion_transforms", &Instance::motion_transforms,
+                "object to world at further times, equally spaced: `transform` is when the shutter opens, the "
+                "last when it closes; matrices are linear between them")),
+      make_attribute(field("holdout", &Instance::is_holdout, "a hole in the picture, for camera rays")),
+      make_attribute(field("shadow_catcher", &Instance::is_shadow_catcher,
+                           "the camera sees through it, darkened by the shadows of what is none")),
+      make_attribute(field("shadow_terminator_offset", &Instance::shadow_terminator_offset,
+                           "cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not "
+                           "the facets",
+                           within(0, 1)))};
   bind_fields<Instance>(m, "Instance", "A shape placed in the world.", attributes);
 }
 

@@ -156,10 +156,12 @@ void bind_tile(py::module_& m) {
 
 void bind_progress(py::module_& m) {
   py::class_<Progress>(m, "Progress", "How far a session is.")
-      .def_readonly("fraction", &Progress::fraction, "of all samples; never falls")
+      .def_readonly("fraction", &Progress::fraction, "of all samples, or of the time there is for them; never falls")
       .def_readonly("samples_per_second", &Progress::samples_per_second)
       .def_readonly("elapsed_seconds", &Progress::elapsed_seconds)
       .def_readonly("remaining_seconds", &Progress::remaining_seconds, "a guess from the rate so far")
+      .def_readonly("samples_per_pixel", &Progress::samples_per_pixel, "the mean of those taken so far")
+      .def_readonly("is_time_up", &Progress::is_time_up, "the time limit ended it before all samples were taken")
       .def_readonly("is_done", &Progress::is_done, "every tile was handed out, or it was stopped")
       .def("__repr__",
            [](const Progress& progress) { return "<Progress " + std::to_string(100 * progress.fraction) + " %>"; });

@@ -23,8 +23,22 @@ std::vector<Element> to_vector(const py::array_t<T>& array) {
   return elements;
 }
 
+// The first axis are the keys.
+std::vector<std::vector<Vec3f>> to_keys(const py::array_t<float>& array) {
+  const std::vector<Vec3f> all = to_vector<Vec3f>(array);
+  const auto count = static_cast<std::size_t>(array.shape(0));
+  const std::size_t size = count == 0 ? 0 : all.size() / count;
+  std::vector<std::vector<Vec3f>> keys(count);
+  for (std::size_t key = 0; key < count; ++key)
+    keys[key].assign(all.begin() + static_cast<std::ptrdiff_t>(key * size),
+                     all.begin() + static_cast<std::ptrdiff_t>((key + 1) * size));
+  return keys;
+}
+
 Mesh make_mesh(const ArrayLike& positions, const ArrayLike& triangles, const std::optional<ArrayLike>& corner_normals,
-               const std::optional<ArrayLike>& uvs, const std::optional<ArrayLike>& material_slots) {
+               const std::optional<ArrayLike>& uvs, const std::optional<ArrayLike>& material_slots,
+               const std::optional<ArrayLike>& motion_positions,
+               const std::optional<ArrayLike>& motion_corner_normals) {
   Mesh mesh;
   mesh.positions = to_vector<Vec3f>(float_array(positions, "positions", {{any_length, 3}}));
   mesh.triangles = to_vector<std::array<std::uint32_t, 3>>(index_array(triangles, "triangles", {{any_length, 3}}));
@@ -35,8 +49,24 @@ Mesh make_mesh(const ArrayLike& positions, const ArrayLike& triangles, const std
   if (uvs) mesh.uvs = to_vector<Vec2f>(float_array(*uvs, "uvs", {{count, 3, 2}, {3 * count, 2}}));
   if (material_slots)
     mesh.material_slots = to_vector<std::uint32_t>(index_array(*material_slots, "material_slots", {{count}}));
+  const auto vertex_count = static_cast<py::ssize_t>(mesh.positions.size());
+  if (motion_positions)
+    mesh.motion_positions =
+        to_keys(float_array(*motion_positions, "motion_positions", {{any_length, vertex_count, 3}}));
+  if (motion_corner_normals)
+    mesh.motion_corner_normals = to_keys(float_array(*motion_corner_normals, "motion_corner_normals",
+                                                     {{any_length, count, 3, 3}, {any_length, 3 * count, 3}}));
   validate(mesh, "Mesh");
   return mesh;
+}
+
+// A view of each, of the given shape.
+py::typing::List<py::array_t<float>> key_views(const std::vector<std::vector<Vec3f>>& keys, const ArrayShape& shape,
+                                               const py::object& owner) {
+  py::typing::List<py::array_t<float>> views;
+  for (const std::vector<Vec3f>& key : keys)
+    views.append(read_only_view(reinterpret_cast<const float*>(key.data()), shape, owner));
+  return views;
 }
 
 // A view of per-corner vectors, (T, 3, size) float32, or None where the mesh has none.
@@ -53,10 +83,14 @@ void register_mesh(py::module_& m) {
 
 positions (V, 3) float32, metres; triangles (T, 3) uint32, counter-clockwise seen from the front; corner_normals
 (T, 3, 3) or (3T, 3) float32, unit length, without them the mesh is flat; uvs (T, 3, 2) or (3T, 2) float32;
-material_slots (T,) uint32, without them every triangle has slot 0. Other real (or integer) types are converted.
+material_slots (T,) uint32, without them every triangle has slot 0. A mesh that deforms has motion_positions
+(K, V, 3) float32 and, where it has corner_normals, motion_corner_normals (K, T, 3, 3) or (K, 3T, 3) float32: those at K
+further times, equally spaced; the others are when the shutter opens, the last of these when it closes, and all is
+linear between them. Other real (or integer) types are converted.
 Raises SceneError naming the array, the rule and the value.)")
       .def(py::init(&make_mesh), py::arg("positions"), py::arg("triangles"), py::kw_only(),
-           py::arg("corner_normals") = py::none(), py::arg("uvs") = py::none(), py::arg("material_slots") = py::none())
+           py::arg("corner_normals") = py::none(), py::arg("uvs") = py::none(), py::arg("material_slots") = py::none(),
+           py::arg("motion_positions") = py::none(), py::arg("motion_corner_normals") = py::none())
       .def_property_readonly(
           "positions",
           [](const py::object& self) {
@@ -88,6 +122,20 @@ Raises SceneError naming the array, the rule and the value.)")
             return read_only_view(slots.data(), {static_cast<py::ssize_t>(slots.size())}, self);
           },
           "(T,) uint32, or None: all 0")
+      .def_property_readonly(
+          "motion_positions",
+          [](const py::object& self) {
+            const auto& mesh = self.cast<const Mesh&>();
+            return key_views(mesh.motion_positions, {static_cast<py::ssize_t>(mesh.positions.size()), 3}, self);
+          },
+          "(V, 3) float32 for each further time; none where it doesn't deform")
+      .def_property_readonly(
+          "motion_corner_normals",
+          [](const py::object& self) {
+            const auto& mesh = self.cast<const Mesh&>();
+            return key_views(mesh.motion_corner_normals, {static_cast<py::ssize_t>(mesh.triangles.size()), 3, 3}, self);
+          },
+          "(T, 3, 3) float32 for each further time; none where it doesn't deform or is flat")
       .def("__repr__", [](const Mesh& mesh) {
         return "<Mesh of " + std::to_string(mesh.positions.size()) + " positions, " +
                std::to_string(mesh.triangles.size()) + " triangles>";

@@ -139,6 +139,25 @@ py::object PythonValue<ColorInput>::write(const ColorInput& value) {
   return PythonValue<Vec3f>::write(value.constant);
 }
 
+ShareInput PythonValue<ShareInput>::read(py::handle value, const std::string& item) {
+  ShareInput share;
+  if (py::isinstance<TextureRef>(value)) {
+    const TextureRef reference = value.cast<TextureRef>();
+    share.texture = Id<Texture>{reference.index};
+    share.is_alpha = reference.is_alpha;
+    return share;
+  }
+  const std::optional<double> number = to_double(value);
+  if (!number) refuse_type(item, "must be a number or a TextureRef", value);
+  share.constant = static_cast<float>(*number);
+  return share;
+}
+
+py::object PythonValue<ShareInput>::write(const ShareInput& value) {
+  if (value.texture.is_valid()) return py::cast(TextureRef{value.texture.index, value.is_alpha});
+  return py::float_(value.constant);
+}
+
 NodeIndex PythonValue<NodeIndex>::read(py::handle value, const std::string& item) {
   if (value.is_none()) return no_node;
   const std::optional<std::int64_t> index = to_integer(value);

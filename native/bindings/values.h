@@ -21,9 +21,11 @@
 
 namespace basicrt::bindings {
 
-// Refers to an entry of Scene.textures wherever a colour may vary.
+// Refers to an entry of Scene.textures wherever a colour or a share may vary.
 struct TextureRef {
   std::uint32_t index = 0;
+  bool is_alpha = false;  // as a share
+  bool operator==(const TextureRef&) const = default;
 };
 
 // read(value, item) throws a TypeError for another type and a SceneError for a value that the type can't hold; both
@@ -96,6 +98,14 @@ struct PythonValue<ColorInput> {
   static constexpr const char* returns = "tuple[float, float, float] | basicrt._native.TextureRef";
   static ColorInput read(pybind11::handle value, const std::string& item);
   static pybind11::object write(const ColorInput& value);
+};
+
+template <>
+struct PythonValue<ShareInput> {
+  static constexpr const char* accepts = "float | basicrt._native.TextureRef";
+  static constexpr const char* returns = "float | basicrt._native.TextureRef";
+  static ShareInput read(pybind11::handle value, const std::string& item);
+  static pybind11::object write(const ShareInput& value);
 };
 
 // The index of a shader node or of an entry of a table; None where there is none.

@@ -178,12 +178,12 @@ def test_cancelling_while_trees_are_built(picture: Path, monkeypatch: pytest.Mon
 def test_what_is_not_supported_is_shown_after_the_render(tmp_path: Path) -> None:
     new_scene(8, 8)
     add_camera()
-    add_plane(material=new_material("ShaderNodeHoldout", "Hole"))
+    add_plane(material=new_material("ShaderNodeBsdfToon", "Cartoon"))
     render(tmp_path)
     assert shown_warnings() == (
-        'material "Hole": node "Holdout": not supported: drawn black and opaque',
+        'material "Cartoon": node "Toon BSDF": not supported: drawn as a Diffuse BSDF',
     )
-    bpy.data.materials.remove(bpy.data.materials["Hole"])
+    bpy.data.materials.remove(bpy.data.materials["Cartoon"])
     render(tmp_path)
     assert shown_warnings() == ()
 

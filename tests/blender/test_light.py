@@ -158,15 +158,43 @@ def test_camera_sees_a_lamp_only_where_the_object_says_so() -> None:
     assert only_lamp().camera_visible
 
 
-def test_unsupported_switches_are_reported() -> None:
+def test_each_kind_of_ray_has_its_switch() -> None:
+    made = add_lamp("SPOT", energy=1)
+    made.visible_camera = True
+    names = {
+        "visible_camera": "camera_visible",
+        "visible_diffuse": "diffuse_visible",
+        "visible_glossy": "glossy_visible",
+        "visible_transmission": "transmission_visible",
+        "visible_volume_scatter": "volume_visible",
+    }
+    for b_name, hidden in names.items():
+        setattr(made, b_name, False)
+        lamp = only_lamp()
+        assert {name: getattr(lamp, name) for name in names.values()} == {
+            name: name != hidden for name in names.values()
+        }
+        setattr(made, b_name, True)
+
+
+def test_lamps_without_shadows_and_with_a_last_bounce() -> None:
     made = add_lamp("POINT", energy=1)
-    made.data.use_shadow = False
-    made.visible_glossy = False
     report = Report()
-    export(report)
+    lamp = only_lamp(report)
+    assert (lamp.casts_shadows, lamp.max_bounces) == (True, 1024), "Blender's defaults"
+    made.data.use_shadow = False
+    made.data.cycles.max_bounces = 3
+    lamp = only_lamp(report)
+    assert (lamp.casts_shadows, lamp.max_bounces) == (False, 3)
+    assert report.warnings == ()
+
+
+def test_portal_is_left_out_and_reported() -> None:
+    add_lamp("AREA", energy=1).data.cycles.is_portal = True
+    report = Report()
+    assert len(export(report).lights) == 0
     assert report.warnings == (
-        'light "Point": a lamp without shadows is not supported: it casts them',
-        'light "Point": hiding a lamp from other rays than the camera\'s is not supported',
+        'light "Area": a portal gives no light and only guides Cycles\' sampling: it is left out',
     )
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import bpy
 import pytest
-from addon.nodes import translate_surface
+from addon.nodes import Textures, translate_surface
 from addon.report import Report
 
 import basicrt
@@ -22,7 +22,7 @@ def scene() -> None:
 def translate(material: Any, *expected_warnings: str) -> Any:
     """The translated material; its warnings must be these."""
     report = Report()
-    made = translate_surface(material, report)
+    made = translate_surface(material, report, Textures(basicrt.Scene()))
     assert report.warnings == tuple(
         f'material "{material.name}": {text}' for text in expected_warnings
     )
@@ -410,7 +410,7 @@ def test_displacement_and_volume_are_reported() -> None:
 def test_similar_shaders_stand_in(bl_idname: str, ours: type) -> None:
     material = new_material(bl_idname, Color=COLOR)
     report = Report()
-    made = translate_surface(material, report)
+    made = translate_surface(material, report, Textures(basicrt.Scene()))
     assert isinstance(made.nodes[made.surface], ours)
     assert made.nodes[made.surface].color == COLOR
     assert len(report.warnings) == 1
@@ -426,7 +426,7 @@ def test_unknown_shader_is_grey() -> None:
 def test_warnings_come_once_for_each_item() -> None:
     report = Report()
     for _ in range(2):
-        material = new_material("ShaderNodeHoldout", name="Hole")
-        translate_surface(material, report)
-        translate_surface(material, report)
+        material = new_material("ShaderNodeBsdfToon", name="Cartoon")
+        translate_surface(material, report, Textures(basicrt.Scene()))
+        translate_surface(material, report, Textures(basicrt.Scene()))
     assert len(report.warnings) == 2, "one for each of the two materials"

@@ -37,6 +37,20 @@ def test_what_was_changed_for_us_counts_before_cycles(scene: Any) -> None:
     assert export().settings.max_bounces == 5
 
 
+def test_the_noise_threshold_goes_with_the_samples(scene: Any) -> None:
+    scene.cycles.samples = 50
+    assert export().settings.adaptive_threshold == pytest.approx(0.01), "Cycles' default"
+    scene.basicrt.samples = 60
+    assert Choice(scene).adaptive_threshold == 0
+
+
+def test_a_noise_threshold_of_zero_is_chosen_by_the_samples_as_in_cycles(scene: Any) -> None:
+    scene.cycles.samples, scene.cycles.adaptive_threshold = 50, 0
+    assert Choice(scene).adaptive_threshold == pytest.approx(1 / 50)
+    scene.cycles.use_adaptive_sampling = False
+    assert Choice(scene).adaptive_threshold == 0
+
+
 def test_the_option_reads_all_from_cycles(scene: Any) -> None:
     scene.basicrt.samples, scene.basicrt.use_cycles_settings = 5, True
     assert set(Choice(scene).followed()) == set(CYCLES_NAMES)

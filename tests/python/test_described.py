@@ -120,7 +120,24 @@ def test_the_repr_of_plain_values_makes_an_equal_object() -> None:
         (lambda: basicrt.RenderSettings(passes=["Depht"]), 'passes: .*"Depht": .*"Depth"'),
         (lambda: basicrt.Instance(0, materials=[0, -2]), r"Instance.materials\[1\]: must be in"),
         (lambda: basicrt.Instance(0, visibility=-1), "Instance.visibility: must be RayKind bits"),
+        (
+            lambda: basicrt.Instance(0, motion_transforms=[np.eye(4), np.eye(3)]),
+            r"Instance.motion_transforms\[1\]: must have the shape",
+        ),
+        (
+            lambda: basicrt.PerspectiveCamera(motion_transforms=[np.ones((4, 4))]),
+            r"PerspectiveCamera.motion_transforms\[0\]: must have the last row 0 0 0 1",
+        ),
+        (
+            lambda: basicrt.RenderSettings(shutter_curve=[1, -1]),
+            "RenderSettings.shutter_curve: must be at least 0, is -1",
+        ),
         (lambda: basicrt.MixShader(first=-1), "MixShader.first: must be in"),
+        (lambda: basicrt.MixShader(1.5), r"MixShader.factor: must be in \[0, 1\]"),
+        (
+            lambda: basicrt.ImageTexture(np.zeros((1, 1, 1)), "bicubic"),
+            'interpolation: .*"bicubic"',
+        ),
     ],
 )
 def test_values_out_of_range_are_refused_by_name(make, message: str) -> None:
@@ -142,6 +159,10 @@ def test_values_out_of_range_are_refused_by_name(make, message: str) -> None:
         (lambda: basicrt.Instance(0, materials=3), "materials: must be a list, is 3"),
         (lambda: basicrt.Instance("first"), "Instance.shape: must be an index"),
         (lambda: basicrt.Instance(0, name=3), "Instance.name: must be a string"),
+        (lambda: basicrt.MixShader("half"), "MixShader.factor: must be a number or a TextureRef"),
+        (lambda: basicrt.EnvironmentLayer(image=3), "EnvironmentLayer.image: must be an Image"),
+        (lambda: basicrt.Environment(layers=3), "Environment.layers: must be a list"),
+        (lambda: basicrt.Environment(layers=[3]), r"layers\[0\]: must be an EnvironmentLayer"),
     ],
 )
 def test_values_of_another_type_are_type_errors(make, message: str) -> None:
@@ -179,6 +200,13 @@ def test_a_color_is_three_numbers_or_a_texture() -> None:
     assert hash(TextureRef(3)) == hash(TextureRef(3))
     shader.color = (0.25, 0.5, 1)
     assert shader.color == (0.25, 0.5, 1)
+
+
+def test_a_share_is_a_number_or_a_texture() -> None:
+    shader = basicrt.MixShader(TextureRef(3, alpha=True))
+    assert shader.factor == TextureRef(3, alpha=True) != TextureRef(3)
+    shader.factor = 0.25
+    assert shader.factor == 0.25
 
 
 def test_transforms_are_matrices_of_three_or_four_rows() -> None:

@@ -40,6 +40,7 @@ def test_optional_arrays_may_be_missing() -> None:
     assert mesh.corner_normals is None
     assert mesh.uvs is None
     assert mesh.material_slots is None
+    assert mesh.motion_positions == mesh.motion_corner_normals == []
     assert repr(mesh) == "<Mesh of 4 positions, 2 triangles>"
 
 
@@ -47,6 +48,24 @@ def test_corners_may_come_in_one_row() -> None:
     mesh = Mesh(POSITIONS, TRIANGLES, corner_normals=NORMALS.reshape(6, 3), uvs=UVS.reshape(6, 2))
     assert np.array_equal(mesh.corner_normals, NORMALS)
     assert np.array_equal(mesh.uvs, UVS)
+
+
+def test_a_mesh_that_deforms_has_its_arrays_at_further_times() -> None:
+    positions = np.stack([POSITIONS + 1, POSITIONS + 2, POSITIONS * 3])
+    normals = np.stack([NORMALS, -NORMALS, NORMALS * 2])
+    for given in (normals, normals.reshape(3, 6, 3)):
+        mesh = Mesh(
+            POSITIONS,
+            TRIANGLES,
+            corner_normals=NORMALS,
+            motion_positions=positions.astype(float),
+            motion_corner_normals=given,
+        )
+        assert np.array_equal(mesh.positions, POSITIONS)
+        assert np.array_equal(mesh.motion_positions, positions)
+        assert np.array_equal(mesh.motion_corner_normals, normals)
+        assert not mesh.motion_positions[0].flags.writeable
+    assert Mesh(POSITIONS, TRIANGLES, motion_positions=[]).motion_positions == []
 
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float64, np.int32, np.uint8, ">f4"])
@@ -120,6 +139,26 @@ def test_a_mesh_may_be_empty() -> None:
             {"uvs": UVS[..., :1]},
             r"uvs: must have the shape \(2, 3, 2\) or \(6, 2\), is \(2, 3, 1\)",
         ),
+        (
+            {"motion_positions": POSITIONS},
+            r"motion_positions: must have the shape \(N, 4, 3\), is \(4, 3\)",
+        ),
+        (
+            {"motion_positions": [POSITIONS[:3]]},
+            r"motion_positions: must have the shape \(N, 4, 3\), is \(1, 3, 3\)",
+        ),
+        (
+            {"motion_positions": [POSITIONS * np.nan]},
+            r"motion_positions\[0, 0, 0\]: must be a finite number",
+        ),
+        (
+            {"motion_positions": [POSITIONS], "corner_normals": NORMALS},
+            "motion_corner_normals: must have as many keys as motion_positions",
+        ),
+        (
+            {"motion_positions": [POSITIONS], "motion_corner_normals": [NORMALS]},
+            "motion_corner_normals: must have as many keys as motion_positions",
+        ),
         ({"material_slots": [0]}, r"material_slots: must have the shape \(2,\), is \(1,\)"),
         ({"material_slots": [0, -1]}, r"material_slots\[1\]: must be in"),
         ({"material_slots": [0.0, 1.0]}, "material_slots: must hold integers"),
@@ -168,10 +207,47 @@ def test_views_are_read_only_and_keep_the_mesh_alive() -> None:
 
 def test_an_image_comes_back_as_it_went_in() -> None:
     pixels = np.random.default_rng(3).random((4, 5, 3)).astype(np.float32)
-    texture = basicrt.ImageTexture(pixels)
-    assert np.array_equal(texture.pixels, pixels)
-    assert not texture.pixels.flags.writeable
-    assert repr(texture) == "<ImageTexture of 5 x 4 pixels>"
+    image = basicrt.Image(pixels)
+    assert np.array_equal(image.pixels, pixels)
+    assert not image.pixels.flags.writeable
+    assert repr(image) == "<Image of 5 x 4 pixels>"
+
+
+def test_bytes_stay_bytes() -> None:
+    pixels = np.arange(60, dtype=np.uint8).reshape(4, 5, 3)
+    image = basicrt.Image(pixels, "linear")
+    assert image.pixels.dtype == np.uint8
+    assert np.array_equal(image.pixels, pixels)
+    assert image.encoding == "linear"
+    assert basicrt.Image(pixels[::-1, :, ::-1]).encoding == "srgb"
+    assert np.array_equal(basicrt.Image(pixels[::-1, :, ::-1]).pixels, pixels[::-1, :, ::-1])
+
+
+def test_textures_share_an_image() -> None:
+    image = basicrt.Image(np.zeros((2, 2, 3)))
+    textures = [basicrt.ImageTexture(image), basicrt.ImageTexture(image, extension="clip")]
+    addresses = {t.image.pixels.__array_interface__["data"][0] for t in textures}
+    assert addresses == {image.pixels.__array_interface__["data"][0]}
+
+
+def test_a_texture_takes_pixels_for_an_image() -> None:
+    pixels = np.random.default_rng(3).random((4, 5, 3)).astype(np.float32)
+    assert np.array_equal(basicrt.ImageTexture(pixels).image.pixels, pixels)
+
+
+def test_environment_layers_hold_images() -> None:
+    environment = basicrt.Environment(layers=[basicrt.EnvironmentLayer((1, 2, 3))])
+    image = basicrt.Image(np.ones((2, 4, 3)))
+    environment.layers = [
+        *environment.layers,
+        basicrt.EnvironmentLayer(image=image, projection="mirror_ball", seen_by="camera"),
+    ]
+    plain, picture = environment.layers
+    assert plain.image is None
+    assert plain.radiance == (1, 2, 3)
+    assert picture.image is not None
+    assert picture.image.pixels.shape == (2, 4, 3)
+    assert (picture.projection, picture.seen_by) == ("mirror_ball", "camera")
 
 
 @pytest.mark.parametrize(
@@ -181,6 +257,8 @@ def test_an_image_comes_back_as_it_went_in() -> None:
         (np.zeros((4, 5, 5)), "pixels: must have 1 to 4 channels, has 5"),
         (np.zeros((0, 5, 3)), "pixels: must not be empty"),
         (np.full((1, 1, 1), np.nan), r"pixels\[0, 0, 0\]: must be a finite number"),
+        (np.zeros((4, 5), np.uint8), r"pixels: must have the shape \(N, N, N\), has 2 dimensions"),
+        (np.zeros((4, 5, 5), np.uint8), "pixels: must have 1 to 4 channels, has 5"),
     ],
 )
 def test_bad_images_are_refused(pixels, message: str) -> None:

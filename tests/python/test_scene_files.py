@@ -92,7 +92,7 @@ def test_exr_textures_are_read_by_python(scene_path) -> None:
     with_image(scene_path, "paint.exr")
     (texture,) = basicrt.load_scene(scene_path).textures
     assert isinstance(texture, basicrt.ImageTexture)
-    assert np.array_equal(texture.pixels[..., :3], pixels[..., :3])
+    assert np.array_equal(texture.image.pixels[..., :3], pixels[..., :3])
 
 
 def test_png_textures_are_srgb(scene_path) -> None:
@@ -100,7 +100,7 @@ def test_png_textures_are_srgb(scene_path) -> None:
     with_image(scene_path, "paint.png")
     (texture,) = basicrt.load_scene(scene_path).textures
     assert isinstance(texture, basicrt.ImageTexture)
-    assert np.allclose(texture.pixels[..., :3], 0.21586, atol=1e-5)  # the byte 128
+    assert np.allclose(texture.image.pixels[..., :3], 0.21586, atol=1e-5)  # the byte 128
 
 
 @pytest.mark.parametrize("name", ["paint.exr", "paint.png"])

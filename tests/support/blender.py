@@ -91,6 +91,56 @@ def set_world(color: tuple[float, float, float], strength: float = 1.0) -> Any:
     return world
 
 
+def new_image(
+    pixels: Any, color_space: str = "Non-Color", is_float: bool = True, name: str = "Picture"
+) -> Any:
+    """A packed image of (height, width, 4) numbers, row 0 at the bottom."""
+    pixels = np.ascontiguousarray(pixels, np.float32)
+    height, width, _channels = pixels.shape
+    image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=is_float)
+    image.colorspace_settings.name = color_space
+    image.pixels.foreach_set(pixels.ravel())
+    image.update()
+    image.pack()
+    return image
+
+
+def world_tree() -> tuple[Any, Any]:
+    """A new world's node tree and its background node."""
+    tree = set_world((1, 1, 1)).node_tree
+    return tree, next(node for node in tree.nodes if node.type == "BACKGROUND")
+
+
+def make_cycles_neutral(scene: Any) -> None:
+    """Cycles without what changes the expectation, with our bounces, filter and samples."""
+    cycles, own = scene.cycles, scene.basicrt
+    cycles.device = "CPU"
+    cycles.samples = own.samples
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
+    cycles.max_bounces, cycles.diffuse_bounces = own.max_bounces, own.diffuse_bounces
+    cycles.glossy_bounces = own.glossy_bounces
+    cycles.transmission_bounces = own.transmission_bounces
+    cycles.transparent_max_bounces = own.transparent_bounces
+    cycles.pixel_filter_type, cycles.filter_width = own.filter_type, own.filter_width
+    for made in scene.objects:
+        made.shadow_terminator_geometry_offset = made.shadow_terminator_shading_offset = 0
+
+
+def render_both(folder: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Our picture and Cycles' of the scene, at pixels' centres: for what has no noise."""
+    scene = bpy.context.scene
+    scene.basicrt.filter_type, scene.basicrt.filter_width = "BLACKMAN_HARRIS", 0.01
+    scene.basicrt.samples = 1
+    ours = render(folder)
+    make_cycles_neutral(scene)
+    scene.cycles.filter_width = 0.01
+    scene.render.engine = "CYCLES"
+    theirs = render(folder)
+    scene.render.engine = "BASICRT"
+    return ours, theirs
+
+
 def add_node(tree: Any, bl_idname: str, **values: Any) -> Any:
     """A node with values for inputs, named by identifier with underscores for spaces."""
     node = tree.nodes.new(bl_idname)
@@ -115,6 +165,25 @@ def new_material(bl_idname: str, name: str = "Material", **values: Any) -> Any:
     material, tree, output = empty_material(name)
     tree.links.new(add_node(tree, bl_idname, **values).outputs[0], output.inputs["Surface"])
     return material
+
+
+def set_linear_keys(made: Any) -> None:
+    """Between and beyond its keys what is animated changes evenly."""
+    for curve in _curves(made):
+        curve.extrapolation = "LINEAR"
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+
+
+def _curves(made: Any) -> list[Any]:
+    """The animation curves of a datablock; from 5.0 on they are in bags."""
+    if made.animation_data is None:
+        return []
+    action = made.animation_data.action
+    if hasattr(action, "fcurves"):
+        return list(action.fcurves)
+    strips = [strip for layer in action.layers for strip in layer.strips]
+    return [curve for strip in strips for bag in strip.channelbags for curve in bag.fcurves]
 
 
 def export(report: Report | None = None) -> basicrt.Scene:

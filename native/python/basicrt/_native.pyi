@@ -22,12 +22,15 @@ __all__: list[str] = [
     "DiffuseShader",
     "EmissionShader",
     "Environment",
+    "EnvironmentLayer",
     "EquirectangularCamera",
     "FisheyeEquidistantCamera",
     "FisheyeEquisolidCamera",
     "FisheyePolynomialCamera",
     "GlassShader",
     "GlossyShader",
+    "HoldoutShader",
+    "Image",
     "ImageTexture",
     "Instance",
     "InstanceTable",
@@ -79,7 +82,10 @@ class Mesh:
 
     positions (V, 3) float32, metres; triangles (T, 3) uint32, counter-clockwise seen from the front; corner_normals
     (T, 3, 3) or (3T, 3) float32, unit length, without them the mesh is flat; uvs (T, 3, 2) or (3T, 2) float32;
-    material_slots (T,) uint32, without them every triangle has slot 0. Other real (or integer) types are converted.
+    material_slots (T,) uint32, without them every triangle has slot 0. A mesh that deforms has motion_positions
+    (K, V, 3) float32 and, where it has corner_normals, motion_corner_normals (K, T, 3, 3) or (K, 3T, 3) float32: those at K
+    further times, equally spaced; the others are when the shutter opens, the last of these when it closes, and all is
+    linear between them. Other real (or integer) types are converted.
     Raises SceneError naming the array, the rule and the value.
     """
     def __init__(
@@ -90,6 +96,8 @@ class Mesh:
         corner_normals: numpy.typing.ArrayLike | None = None,
         uvs: numpy.typing.ArrayLike | None = None,
         material_slots: numpy.typing.ArrayLike | None = None,
+        motion_positions: numpy.typing.ArrayLike | None = None,
+        motion_corner_normals: numpy.typing.ArrayLike | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -101,6 +109,16 @@ class Mesh:
     def material_slots(self) -> numpy.typing.NDArray[numpy.uint32] | None:
         """
         (T,) uint32, or None: all 0
+        """
+    @property
+    def motion_corner_normals(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        (T, 3, 3) float32 for each further time; none where it doesn't deform or is flat
+        """
+    @property
+    def motion_positions(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        (V, 3) float32 for each further time; none where it doesn't deform
         """
     @property
     def positions(self) -> numpy.typing.NDArray[numpy.float32]:
@@ -148,12 +166,17 @@ class Sphere:
 
 class TextureRef:
     """
-    Stands for Scene.textures[index] where a colour may vary.
+    Stands for Scene.textures[index] where a colour or a share may vary. As a share it is the
+    texture's luminance or, with `alpha`, its alpha.
     """
     def __eq__(self, arg0: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
-    def __init__(self, index: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __init__(
+        self, index: typing.SupportsInt | typing.SupportsIndex, alpha: bool = False
+    ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def alpha(self) -> bool: ...
     @property
     def index(self) -> int: ...
 
@@ -221,19 +244,80 @@ class CheckerboardTexture:
     @scale.setter
     def scale(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
 
-class ImageTexture:
+class Image:
     """
-    A picture over uv, bilinear and repeated.
+    A picture, which textures and the environment share.
 
-    pixels: (height, width, 1 to 4) float32, scene-linear, row 0 at the bottom. Copied.
+    pixels: (height, width, 1 to 4), row 0 at the bottom: float32, scene-linear; or uint8, where 255
+    is 1, as `encoding` says: "srgb" or "linear". Copied.
     """
-    def __init__(self, pixels: numpy.typing.ArrayLike) -> None: ...
+    def __init__(self, pixels: numpy.typing.ArrayLike, encoding: str = "srgb") -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def pixels(self) -> numpy.typing.NDArray[numpy.float32]:
+    def encoding(self) -> str:
         """
-        (height, width, channels) float32, scene-linear, row 0 at the bottom; read-only
+        what uint8 pixels mean
         """
+    @property
+    def pixels(self) -> typing.Any:
+        """
+        (height, width, channels), row 0 at the bottom: float32 or uint8; read-only
+        """
+
+class ImageTexture:
+    """
+    A picture over uv.
+
+    image: an Image, or its pixels
+    interpolation: between pixels: linear, closest or cubic
+    extension: beyond the edges: repeat, extend, clip or mirror
+    uv_transform: of (u, v, 0), before the image is looked up
+    divide_by_alpha: divides the colour by alpha, where the image's is multiplied by it
+    """
+    def __init__(
+        self,
+        image: Image | numpy.typing.ArrayLike = ...,
+        interpolation: str = "linear",
+        extension: str = "repeat",
+        uv_transform: numpy.typing.ArrayLike = ...,
+        divide_by_alpha: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def divide_by_alpha(self) -> bool:
+        """
+        divides the colour by alpha, where the image's is multiplied by it
+        """
+    @divide_by_alpha.setter
+    def divide_by_alpha(self, value: bool) -> None: ...
+    @property
+    def extension(self) -> str:
+        """
+        beyond the edges: repeat, extend, clip or mirror
+        """
+    @extension.setter
+    def extension(self, value: str) -> None: ...
+    @property
+    def image(self) -> Image:
+        """
+        an Image, or its pixels
+        """
+    @image.setter
+    def image(self, value: Image | numpy.typing.ArrayLike) -> None: ...
+    @property
+    def interpolation(self) -> str:
+        """
+        between pixels: linear, closest or cubic
+        """
+    @interpolation.setter
+    def interpolation(self, value: str) -> None: ...
+    @property
+    def uv_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        of (u, v, 0), before the image is looked up
+        """
+    @uv_transform.setter
+    def uv_transform(self, value: numpy.typing.ArrayLike) -> None: ...
 
 class DiffuseShader:
     """
@@ -546,20 +630,35 @@ class EmissionShader:
 
     radiance: W / (m^2 sr), each direction alike; at least 0
     twosided: whether the back emits too
+    strength: multiplies the radiance; at least 0
     """
     def __init__(
         self,
-        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
         twosided: bool = True,
+        strength: float = 1.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def radiance(self) -> tuple[float, float, float]:
+    def radiance(self) -> tuple[float, float, float] | TextureRef:
         """
         W / (m^2 sr), each direction alike; at least 0
         """
     @radiance.setter
-    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    def radiance(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def strength(self) -> float:
+        """
+        multiplies the radiance; at least 0
+        """
+    @strength.setter
+    def strength(self, value: float) -> None: ...
     @property
     def twosided(self) -> bool:
         """
@@ -567,6 +666,13 @@ class EmissionShader:
         """
     @twosided.setter
     def twosided(self, value: bool) -> None: ...
+
+class HoldoutShader:
+    """
+    A hole in the picture for what the camera sees.
+    """
+    def __init__(self) -> None: ...
+    def __repr__(self) -> str: ...
 
 class PrincipledShader:
     """
@@ -579,6 +685,7 @@ class PrincipledShader:
     transmission: how much of the dielectric is glass; in [0, 1]
     specular_ior_level: 0.5 leaves the index's reflectance as it is; in [0, 1]
     emission: W / (m^2 sr), both sides; at least 0
+    emission_strength: multiplies the emission; at least 0
     alpha: opacity; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
     """
@@ -594,18 +701,23 @@ class PrincipledShader:
         ior: float = 1.5,
         transmission: float = 0.0,
         specular_ior_level: float = 0.5,
-        emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
-        alpha: float = 1.0,
+        emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.0,
+            0.0,
+            0.0,
+        ),
+        emission_strength: float = 1.0,
+        alpha: float | TextureRef = 1.0,
         distribution: str = "multi_ggx",
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def alpha(self) -> float:
+    def alpha(self) -> float | TextureRef:
         """
         opacity; in [0, 1]
         """
     @alpha.setter
-    def alpha(self, value: float) -> None: ...
+    def alpha(self, value: float | TextureRef) -> None: ...
     @property
     def base_color(self) -> tuple[float, float, float] | TextureRef:
         """
@@ -623,12 +735,21 @@ class PrincipledShader:
     @distribution.setter
     def distribution(self, value: str) -> None: ...
     @property
-    def emission(self) -> tuple[float, float, float]:
+    def emission(self) -> tuple[float, float, float] | TextureRef:
         """
         W / (m^2 sr), both sides; at least 0
         """
     @emission.setter
-    def emission(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    def emission(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def emission_strength(self) -> float:
+        """
+        multiplies the emission; at least 0
+        """
+    @emission_strength.setter
+    def emission_strength(self, value: float) -> None: ...
     @property
     def ior(self) -> float:
         """
@@ -674,16 +795,16 @@ class MixShader:
     second: a node made before this one
     """
     def __init__(
-        self, factor: float = 0.5, first: int | None = None, second: int | None = None
+        self, factor: float | TextureRef = 0.5, first: int | None = None, second: int | None = None
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def factor(self) -> float:
+    def factor(self) -> float | TextureRef:
         """
         0 is all the first, 1 all the second; in [0, 1]
         """
     @factor.setter
-    def factor(self, value: float) -> None: ...
+    def factor(self, value: float | TextureRef) -> None: ...
     @property
     def first(self) -> int | None:
         """
@@ -740,6 +861,7 @@ class Material:
         | GlassShader
         | TransparentShader
         | EmissionShader
+        | HoldoutShader
         | PrincipledShader
         | MixShader
         | AddShader,
@@ -758,6 +880,7 @@ class Material:
         | GlassShader
         | TransparentShader
         | EmissionShader
+        | HoldoutShader
         | PrincipledShader
         | MixShader
         | AddShader
@@ -781,7 +904,13 @@ class PointLight:
     intensity: W / sr; at least 0
     radius: metres; at least 0
     soft: a disc that faces the lit point instead of a sphere
-    camera_visible: whether camera rays see the lamp; what it lights stays the same
+    camera_visible: camera rays see the lamp
+    diffuse_visible: it lights by diffuse reflection
+    glossy_visible: it lights by glossy reflection, and mirrors see it
+    transmission_visible: it lights through glass, and is seen through it
+    volume_visible: it lights volumes
+    casts_shadows: what is in the way dims its light
+    max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
     def __init__(
         self,
@@ -790,15 +919,42 @@ class PointLight:
         radius: float = 0.0,
         soft: bool = False,
         camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
     def camera_visible(self) -> bool:
         """
-        whether camera rays see the lamp; what it lights stays the same
+        camera rays see the lamp
         """
     @camera_visible.setter
     def camera_visible(self, value: bool) -> None: ...
+    @property
+    def casts_shadows(self) -> bool:
+        """
+        what is in the way dims its light
+        """
+    @casts_shadows.setter
+    def casts_shadows(self, value: bool) -> None: ...
+    @property
+    def diffuse_visible(self) -> bool:
+        """
+        it lights by diffuse reflection
+        """
+    @diffuse_visible.setter
+    def diffuse_visible(self, value: bool) -> None: ...
+    @property
+    def glossy_visible(self) -> bool:
+        """
+        it lights by glossy reflection, and mirrors see it
+        """
+    @glossy_visible.setter
+    def glossy_visible(self, value: bool) -> None: ...
     @property
     def intensity(self) -> tuple[float, float, float]:
         """
@@ -808,6 +964,13 @@ class PointLight:
     def intensity(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
+    @property
+    def max_bounces(self) -> int:
+        """
+        scatterings behind which surfaces aren't lit by it; in [0, 1024]
+        """
+    @max_bounces.setter
+    def max_bounces(self, value: int) -> None: ...
     @property
     def position(self) -> tuple[float, float, float]:
         """
@@ -829,6 +992,20 @@ class PointLight:
         """
     @soft.setter
     def soft(self, value: bool) -> None: ...
+    @property
+    def transmission_visible(self) -> bool:
+        """
+        it lights through glass, and is seen through it
+        """
+    @transmission_visible.setter
+    def transmission_visible(self, value: bool) -> None: ...
+    @property
+    def volume_visible(self) -> bool:
+        """
+        it lights volumes
+        """
+    @volume_visible.setter
+    def volume_visible(self, value: bool) -> None: ...
 
 class SpotLight:
     """
@@ -840,7 +1017,13 @@ class SpotLight:
     soft: a disc that faces the lit point instead of a sphere
     angle: full angle of the cone, radians; above 0
     blend: share of the cone in which it fades; in [0, 1]
-    camera_visible: whether camera rays see the lamp; what it lights stays the same
+    camera_visible: camera rays see the lamp
+    diffuse_visible: it lights by diffuse reflection
+    glossy_visible: it lights by glossy reflection, and mirrors see it
+    transmission_visible: it lights through glass, and is seen through it
+    volume_visible: it lights volumes
+    casts_shadows: what is in the way dims its light
+    max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
     def __init__(
         self,
@@ -851,6 +1034,12 @@ class SpotLight:
         angle: float = 0.785398,
         blend: float = 0.15,
         camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -870,10 +1059,31 @@ class SpotLight:
     @property
     def camera_visible(self) -> bool:
         """
-        whether camera rays see the lamp; what it lights stays the same
+        camera rays see the lamp
         """
     @camera_visible.setter
     def camera_visible(self, value: bool) -> None: ...
+    @property
+    def casts_shadows(self) -> bool:
+        """
+        what is in the way dims its light
+        """
+    @casts_shadows.setter
+    def casts_shadows(self, value: bool) -> None: ...
+    @property
+    def diffuse_visible(self) -> bool:
+        """
+        it lights by diffuse reflection
+        """
+    @diffuse_visible.setter
+    def diffuse_visible(self, value: bool) -> None: ...
+    @property
+    def glossy_visible(self) -> bool:
+        """
+        it lights by glossy reflection, and mirrors see it
+        """
+    @glossy_visible.setter
+    def glossy_visible(self, value: bool) -> None: ...
     @property
     def intensity(self) -> tuple[float, float, float]:
         """
@@ -883,6 +1093,13 @@ class SpotLight:
     def intensity(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
+    @property
+    def max_bounces(self) -> int:
+        """
+        scatterings behind which surfaces aren't lit by it; in [0, 1024]
+        """
+    @max_bounces.setter
+    def max_bounces(self, value: int) -> None: ...
     @property
     def radius(self) -> float:
         """
@@ -904,6 +1121,20 @@ class SpotLight:
         """
     @transform.setter
     def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def transmission_visible(self) -> bool:
+        """
+        it lights through glass, and is seen through it
+        """
+    @transmission_visible.setter
+    def transmission_visible(self, value: bool) -> None: ...
+    @property
+    def volume_visible(self) -> bool:
+        """
+        it lights volumes
+        """
+    @volume_visible.setter
+    def volume_visible(self, value: bool) -> None: ...
 
 class SunLight:
     """
@@ -912,7 +1143,13 @@ class SunLight:
     direction: in which the light travels, world space
     irradiance: W / m^2 on a surface that faces it; at least 0
     angle: full angle of the disc, radians; in [0, 3.141593]
-    camera_visible: whether camera rays see the lamp; what it lights stays the same
+    camera_visible: camera rays see the lamp
+    diffuse_visible: it lights by diffuse reflection
+    glossy_visible: it lights by glossy reflection, and mirrors see it
+    transmission_visible: it lights through glass, and is seen through it
+    volume_visible: it lights volumes
+    casts_shadows: what is in the way dims its light
+    max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
     def __init__(
         self,
@@ -920,6 +1157,12 @@ class SunLight:
         irradiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
         angle: float = 0.0,
         camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -932,10 +1175,24 @@ class SunLight:
     @property
     def camera_visible(self) -> bool:
         """
-        whether camera rays see the lamp; what it lights stays the same
+        camera rays see the lamp
         """
     @camera_visible.setter
     def camera_visible(self, value: bool) -> None: ...
+    @property
+    def casts_shadows(self) -> bool:
+        """
+        what is in the way dims its light
+        """
+    @casts_shadows.setter
+    def casts_shadows(self, value: bool) -> None: ...
+    @property
+    def diffuse_visible(self) -> bool:
+        """
+        it lights by diffuse reflection
+        """
+    @diffuse_visible.setter
+    def diffuse_visible(self, value: bool) -> None: ...
     @property
     def direction(self) -> tuple[float, float, float]:
         """
@@ -946,6 +1203,13 @@ class SunLight:
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
     @property
+    def glossy_visible(self) -> bool:
+        """
+        it lights by glossy reflection, and mirrors see it
+        """
+    @glossy_visible.setter
+    def glossy_visible(self, value: bool) -> None: ...
+    @property
     def irradiance(self) -> tuple[float, float, float]:
         """
         W / m^2 on a surface that faces it; at least 0
@@ -954,6 +1218,27 @@ class SunLight:
     def irradiance(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
+    @property
+    def max_bounces(self) -> int:
+        """
+        scatterings behind which surfaces aren't lit by it; in [0, 1024]
+        """
+    @max_bounces.setter
+    def max_bounces(self, value: int) -> None: ...
+    @property
+    def transmission_visible(self) -> bool:
+        """
+        it lights through glass, and is seen through it
+        """
+    @transmission_visible.setter
+    def transmission_visible(self, value: bool) -> None: ...
+    @property
+    def volume_visible(self) -> bool:
+        """
+        it lights volumes
+        """
+    @volume_visible.setter
+    def volume_visible(self, value: bool) -> None: ...
 
 class AreaLight:
     """
@@ -963,7 +1248,13 @@ class AreaLight:
     radiance: W / (m^2 sr) with full spread; at least 0
     ellipse: an ellipse instead of a rectangle
     spread: full angle, radians; in [0, 3.141593]
-    camera_visible: whether camera rays see the lamp; what it lights stays the same
+    camera_visible: camera rays see the lamp
+    diffuse_visible: it lights by diffuse reflection
+    glossy_visible: it lights by glossy reflection, and mirrors see it
+    transmission_visible: it lights through glass, and is seen through it
+    volume_visible: it lights volumes
+    casts_shadows: what is in the way dims its light
+    max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
     def __init__(
         self,
@@ -972,15 +1263,35 @@ class AreaLight:
         ellipse: bool = False,
         spread: float = 3.141593,
         camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
     def camera_visible(self) -> bool:
         """
-        whether camera rays see the lamp; what it lights stays the same
+        camera rays see the lamp
         """
     @camera_visible.setter
     def camera_visible(self, value: bool) -> None: ...
+    @property
+    def casts_shadows(self) -> bool:
+        """
+        what is in the way dims its light
+        """
+    @casts_shadows.setter
+    def casts_shadows(self, value: bool) -> None: ...
+    @property
+    def diffuse_visible(self) -> bool:
+        """
+        it lights by diffuse reflection
+        """
+    @diffuse_visible.setter
+    def diffuse_visible(self, value: bool) -> None: ...
     @property
     def ellipse(self) -> bool:
         """
@@ -988,6 +1299,20 @@ class AreaLight:
         """
     @ellipse.setter
     def ellipse(self, value: bool) -> None: ...
+    @property
+    def glossy_visible(self) -> bool:
+        """
+        it lights by glossy reflection, and mirrors see it
+        """
+    @glossy_visible.setter
+    def glossy_visible(self, value: bool) -> None: ...
+    @property
+    def max_bounces(self) -> int:
+        """
+        scatterings behind which surfaces aren't lit by it; in [0, 1024]
+        """
+    @max_bounces.setter
+    def max_bounces(self, value: int) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
@@ -1009,17 +1334,105 @@ class AreaLight:
         """
     @transform.setter
     def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def transmission_visible(self) -> bool:
+        """
+        it lights through glass, and is seen through it
+        """
+    @transmission_visible.setter
+    def transmission_visible(self, value: bool) -> None: ...
+    @property
+    def volume_visible(self) -> bool:
+        """
+        it lights volumes
+        """
+    @volume_visible.setter
+    def volume_visible(self, value: bool) -> None: ...
+
+class EnvironmentLayer:
+    """
+    A picture around the scene, or the same from everywhere.
+
+    radiance: W / (m^2 sr); multiplies the image where there is one; at least 0
+    image: an Image; None is the same from everywhere
+    projection: of the image: equirectangular or mirror_ball
+    interpolation: between pixels: linear, closest or cubic
+    transform: of a direction, as a point, before the image is looked up
+    seen_by: which rays see it: all, those from the camera, or those that have scattered
+    """
+    def __init__(
+        self,
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        image: Image | None = None,
+        projection: str = "equirectangular",
+        interpolation: str = "linear",
+        transform: numpy.typing.ArrayLike = ...,
+        seen_by: str = "all",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def image(self) -> Image | None:
+        """
+        an Image; None is the same from everywhere
+        """
+    @image.setter
+    def image(self, value: Image | None) -> None: ...
+    @property
+    def interpolation(self) -> str:
+        """
+        between pixels: linear, closest or cubic
+        """
+    @interpolation.setter
+    def interpolation(self, value: str) -> None: ...
+    @property
+    def projection(self) -> str:
+        """
+        of the image: equirectangular or mirror_ball
+        """
+    @projection.setter
+    def projection(self, value: str) -> None: ...
+    @property
+    def radiance(self) -> tuple[float, float, float]:
+        """
+        W / (m^2 sr); multiplies the image where there is one; at least 0
+        """
+    @radiance.setter
+    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    @property
+    def seen_by(self) -> str:
+        """
+        which rays see it: all, those from the camera, or those that have scattered
+        """
+    @seen_by.setter
+    def seen_by(self, value: str) -> None: ...
+    @property
+    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        of a direction, as a point, before the image is looked up
+        """
+    @transform.setter
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
 
 class Environment:
     """
     What a ray sees that hits nothing.
 
     radiance: W / (m^2 sr), each direction alike; at least 0
+    layers: EnvironmentLayers, added up; reading gives a copy, assign to change them
     """
     def __init__(
-        self, radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0)
+        self,
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        layers: collections.abc.Iterable[EnvironmentLayer] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def layers(self) -> list[EnvironmentLayer]:
+        """
+        EnvironmentLayers, added up; reading gives a copy, assign to change them
+        """
+    @layers.setter
+    def layers(self, value: collections.abc.Iterable[EnvironmentLayer]) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
@@ -1042,6 +1455,7 @@ class PerspectiveCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1055,6 +1469,7 @@ class PerspectiveCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1106,6 +1521,15 @@ class PerspectiveCamera:
         """
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
+    @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1146,6 +1570,7 @@ class OrthographicCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1159,6 +1584,7 @@ class OrthographicCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1210,6 +1636,15 @@ class OrthographicCamera:
         """
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
+    @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1250,6 +1685,7 @@ class EquirectangularCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1269,6 +1705,7 @@ class EquirectangularCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1321,6 +1758,15 @@ class EquirectangularCamera:
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
     @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
+    @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
@@ -1360,6 +1806,7 @@ class FisheyeEquidistantCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     fov: full angle of the circle that is seen, radians; above 0
     """
     def __init__(
@@ -1380,6 +1827,7 @@ class FisheyeEquidistantCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
         fov: float = 3.1415927,
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -1440,6 +1888,15 @@ class FisheyeEquidistantCamera:
     @fov.setter
     def fov(self, value: float) -> None: ...
     @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
+    @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
@@ -1479,6 +1936,7 @@ class FisheyeEquisolidCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     fov: full angle of the circle that is seen, radians; above 0
     focal_length: in the window's unit; above 0
     """
@@ -1494,8 +1952,9 @@ class FisheyeEquisolidCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
         fov: float = 3.1415927,
-        focal_length: float = 0.70710677,
+        focal_length: float = 0.7071068,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1562,6 +2021,15 @@ class FisheyeEquisolidCamera:
     @fov.setter
     def fov(self, value: float) -> None: ...
     @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
+    @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
@@ -1601,6 +2069,7 @@ class FisheyePolynomialCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     fov: full angle of what is seen, radians; above 0
     k0: of the angle's polynomial in the distance, radians
     k1: the factor of the distance
@@ -1620,6 +2089,7 @@ class FisheyePolynomialCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
         fov: float = 3.1415927,
         k0: float = 0.0,
         k1: float = 1.0,
@@ -1720,6 +2190,15 @@ class FisheyePolynomialCamera:
     @k4.setter
     def k4(self, value: float) -> None: ...
     @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
+    @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
@@ -1759,6 +2238,7 @@ class CubemapFaceCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1778,6 +2258,7 @@ class CubemapFaceCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1829,6 +2310,15 @@ class CubemapFaceCamera:
         """
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
+    @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1869,6 +2359,7 @@ class CylindricalCamera:
     aperture_rotation: of the blades, radians
     aperture_ratio: the aperture's height over its width; above 0
     focus_distance: what is that far is sharp, metres; above 0
+    motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
     def __init__(
         self,
@@ -1882,6 +2373,7 @@ class CylindricalCamera:
         aperture_rotation: float = 0.0,
         aperture_ratio: float = 1.0,
         focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1933,6 +2425,15 @@ class CylindricalCamera:
         """
     @focus_distance.setter
     def focus_distance(self, value: float) -> None: ...
+    @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        camera to world at further times, equally spaced; the last is when the shutter closes
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -1990,11 +2491,17 @@ class RenderSettings:
     border_y: lower edge of the rectangle to render, pixels; at least 0
     border_width: pixels; 0 is the whole width; at least 0
     border_height: pixels; 0 is the whole height; at least 0
-    samples: paths for each pixel; in [1, 16777216]
+    samples: paths for each pixel, the most where sampling is adaptive or time limited; in [1, 16777216]
+    adaptive_threshold: the noise at which a pixel has enough samples; 0 gives every pixel all samples; in [0, 1]
+    adaptive_min_samples: samples before the noise is looked at; 0 chooses by the threshold; in [0, 16777216]
+    time_limit: seconds after which no more samples are started; 0 is no limit; at least 0
     seed: another seed, other noise
     sampler: how a pixel's samples are spread: evenly, or each by chance
     film_transparent: the background has alpha 0
+    film_transparent_glass: where the film is transparent, so is the background seen through glass
+    film_transparent_roughness: the largest alpha of microfacets that counts as such glass; in [0, 1]
     exposure: multiplies radiance; at least 0
+    shutter_curve: how far the shutter is open at equally spaced times; none: wide open throughout; at least 0
     integrator: how light is computed
     max_bounces: scatterings after which a path ends; in [0, 1024]
     diffuse_bounces: diffuse reflections after which a path ends; in [0, 1024]
@@ -2002,12 +2509,19 @@ class RenderSettings:
     transmission_bounces: transmissions after which a path ends; in [0, 1024]
     transparent_bounces: transparent surfaces after which a ray ends; in [0, 1024]
     rr_threshold: throughput under which Russian roulette begins; in [0, 1]
+    light_threshold: light samples that would add less than this are left out by chance, which changes no mean; in [0, 1]
+    clamp_direct: the most light that a path adds from lights it meets at once; 0 is no limit; at least 0
+    clamp_indirect: the most light that a path adds after more scatterings; 0 is no limit; at least 0
+    blur_glossy: roughens what paths meet after a blurred scattering; 0 is none; in [0, 10]
+    caustics_reflective: glossy reflection after a diffuse one
+    caustics_refractive: transmission after a diffuse reflection
     point_light_position: intersection_test: the light, world space
     point_light_flux: intersection_test: watts; at least 0
     max_depth: intersection_test: surfaces that a path may meet; in [1, 1024]
     bvh_builder: which builder makes the trees
     filter_type: the filter's shape
     filter_radius: half of its width, in pixels; above 0
+    filter_falloff: of gaussian: exp(-falloff * x^2), x in pixels; above 0
     passes: names of the passes to make, as in passes()
     """
     def __init__(
@@ -2019,17 +2533,29 @@ class RenderSettings:
         border_width: int = 0,
         border_height: int = 0,
         samples: int = 64,
+        adaptive_threshold: float = 0.0,
+        adaptive_min_samples: int = 0,
+        time_limit: float = 0.0,
         seed: int = 0,
         sampler: str = "sobol",
         film_transparent: bool = False,
+        film_transparent_glass: bool = False,
+        film_transparent_roughness: float = 0.1,
         exposure: float = 1.0,
+        shutter_curve: collections.abc.Iterable[float] = [],
         integrator: str = "path",
         max_bounces: int = 12,
         diffuse_bounces: int = 4,
         glossy_bounces: int = 4,
         transmission_bounces: int = 12,
         transparent_bounces: int = 8,
-        rr_threshold: float = 1.0,
+        rr_threshold: float = 0.5,
+        light_threshold: float = 0.0,
+        clamp_direct: float = 0.0,
+        clamp_indirect: float = 0.0,
+        blur_glossy: float = 0.0,
+        caustics_reflective: bool = True,
+        caustics_refractive: bool = True,
         point_light_position: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
             0.0,
             0.0,
@@ -2044,9 +2570,31 @@ class RenderSettings:
         bvh_builder: str = "binned_sah",
         filter_type: str = "box",
         filter_radius: float = 0.5,
+        filter_falloff: float = 2.0,
         passes: collections.abc.Iterable[str] = ["Combined"],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def adaptive_min_samples(self) -> int:
+        """
+        samples before the noise is looked at; 0 chooses by the threshold; in [0, 16777216]
+        """
+    @adaptive_min_samples.setter
+    def adaptive_min_samples(self, value: int) -> None: ...
+    @property
+    def adaptive_threshold(self) -> float:
+        """
+        the noise at which a pixel has enough samples; 0 gives every pixel all samples; in [0, 1]
+        """
+    @adaptive_threshold.setter
+    def adaptive_threshold(self, value: float) -> None: ...
+    @property
+    def blur_glossy(self) -> float:
+        """
+        roughens what paths meet after a blurred scattering; 0 is none; in [0, 10]
+        """
+    @blur_glossy.setter
+    def blur_glossy(self, value: float) -> None: ...
     @property
     def border_height(self) -> int:
         """
@@ -2083,6 +2631,34 @@ class RenderSettings:
     @bvh_builder.setter
     def bvh_builder(self, value: str) -> None: ...
     @property
+    def caustics_reflective(self) -> bool:
+        """
+        glossy reflection after a diffuse one
+        """
+    @caustics_reflective.setter
+    def caustics_reflective(self, value: bool) -> None: ...
+    @property
+    def caustics_refractive(self) -> bool:
+        """
+        transmission after a diffuse reflection
+        """
+    @caustics_refractive.setter
+    def caustics_refractive(self, value: bool) -> None: ...
+    @property
+    def clamp_direct(self) -> float:
+        """
+        the most light that a path adds from lights it meets at once; 0 is no limit; at least 0
+        """
+    @clamp_direct.setter
+    def clamp_direct(self, value: float) -> None: ...
+    @property
+    def clamp_indirect(self) -> float:
+        """
+        the most light that a path adds after more scatterings; 0 is no limit; at least 0
+        """
+    @clamp_indirect.setter
+    def clamp_indirect(self, value: float) -> None: ...
+    @property
     def diffuse_bounces(self) -> int:
         """
         diffuse reflections after which a path ends; in [0, 1024]
@@ -2103,6 +2679,27 @@ class RenderSettings:
         """
     @film_transparent.setter
     def film_transparent(self, value: bool) -> None: ...
+    @property
+    def film_transparent_glass(self) -> bool:
+        """
+        where the film is transparent, so is the background seen through glass
+        """
+    @film_transparent_glass.setter
+    def film_transparent_glass(self, value: bool) -> None: ...
+    @property
+    def film_transparent_roughness(self) -> float:
+        """
+        the largest alpha of microfacets that counts as such glass; in [0, 1]
+        """
+    @film_transparent_roughness.setter
+    def film_transparent_roughness(self, value: float) -> None: ...
+    @property
+    def filter_falloff(self) -> float:
+        """
+        of gaussian: exp(-falloff * x^2), x in pixels; above 0
+        """
+    @filter_falloff.setter
+    def filter_falloff(self, value: float) -> None: ...
     @property
     def filter_radius(self) -> float:
         """
@@ -2138,6 +2735,13 @@ class RenderSettings:
         """
     @integrator.setter
     def integrator(self, value: str) -> None: ...
+    @property
+    def light_threshold(self) -> float:
+        """
+        light samples that would add less than this are left out by chance, which changes no mean; in [0, 1]
+        """
+    @light_threshold.setter
+    def light_threshold(self, value: float) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
@@ -2194,7 +2798,7 @@ class RenderSettings:
     @property
     def samples(self) -> int:
         """
-        paths for each pixel; in [1, 16777216]
+        paths for each pixel, the most where sampling is adaptive or time limited; in [1, 16777216]
         """
     @samples.setter
     def samples(self, value: int) -> None: ...
@@ -2205,6 +2809,20 @@ class RenderSettings:
         """
     @seed.setter
     def seed(self, value: int) -> None: ...
+    @property
+    def shutter_curve(self) -> list[float]:
+        """
+        how far the shutter is open at equally spaced times; none: wide open throughout; at least 0
+        """
+    @shutter_curve.setter
+    def shutter_curve(self, value: collections.abc.Iterable[float]) -> None: ...
+    @property
+    def time_limit(self) -> float:
+        """
+        seconds after which no more samples are started; 0 is no limit; at least 0
+        """
+    @time_limit.setter
+    def time_limit(self, value: float) -> None: ...
     @property
     def transmission_bounces(self) -> int:
         """
@@ -2236,6 +2854,10 @@ class Instance:
     materials: for each material slot an index into Scene.materials; None is a diffuse grey of 0.8
     name: for messages
     visibility: RayKind bits: the rays that see it
+    motion_transforms: object to world at further times, equally spaced: `transform` is when the shutter opens, the last when it closes; matrices are linear between them
+    holdout: a hole in the picture, for camera rays
+    shadow_catcher: the camera sees through it, darkened by the shadows of what is none
+    shadow_terminator_offset: cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
     """
     def __init__(
         self,
@@ -2244,8 +2866,19 @@ class Instance:
         materials: collections.abc.Iterable[int | None] = [],
         name: str = "",
         visibility: int = 4294967295,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+        holdout: bool = False,
+        shadow_catcher: bool = False,
+        shadow_terminator_offset: float = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def holdout(self) -> bool:
+        """
+        a hole in the picture, for camera rays
+        """
+    @holdout.setter
+    def holdout(self, value: bool) -> None: ...
     @property
     def materials(self) -> list[int | None]:
         """
@@ -2254,12 +2887,35 @@ class Instance:
     @materials.setter
     def materials(self, value: collections.abc.Iterable[int | None]) -> None: ...
     @property
+    def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        object to world at further times, equally spaced: `transform` is when the shutter opens, the last when it closes; matrices are linear between them
+        """
+    @motion_transforms.setter
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
+    @property
     def name(self) -> str:
         """
         for messages
         """
     @name.setter
     def name(self, value: str) -> None: ...
+    @property
+    def shadow_catcher(self) -> bool:
+        """
+        the camera sees through it, darkened by the shadows of what is none
+        """
+    @shadow_catcher.setter
+    def shadow_catcher(self, value: bool) -> None: ...
+    @property
+    def shadow_terminator_offset(self) -> float:
+        """
+        cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
+        """
+    @shadow_terminator_offset.setter
+    def shadow_terminator_offset(self, value: float) -> None: ...
     @property
     def shape(self) -> int | None:
         """
@@ -2467,7 +3123,7 @@ class Progress:
     @property
     def fraction(self) -> float:
         """
-        of all samples; never falls
+        of all samples, or of the time there is for them; never falls
         """
     @property
     def is_done(self) -> bool:
@@ -2475,9 +3131,19 @@ class Progress:
         every tile was handed out, or it was stopped
         """
     @property
+    def is_time_up(self) -> bool:
+        """
+        the time limit ended it before all samples were taken
+        """
+    @property
     def remaining_seconds(self) -> float:
         """
         a guess from the rate so far
+        """
+    @property
+    def samples_per_pixel(self) -> float:
+        """
+        the mean of those taken so far
         """
     @property
     def samples_per_second(self) -> float: ...

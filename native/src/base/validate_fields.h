@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "base/describe.h"
 
@@ -35,6 +36,13 @@ constexpr void for_each_number(const Number& value, Visitor&& visit) {
     visit(value);
   else if constexpr (std::integral<Number> && !std::same_as<Number, bool>)
     visit(static_cast<std::int64_t>(value));
+}
+
+// Each number of each element.
+template <class T, class Visitor>
+  requires requires(const T& value, Visitor&& visit) { for_each_number(value, visit); }
+constexpr void for_each_number(const std::vector<T>& values, Visitor&& visit) {
+  for (const T& value : values) for_each_number(value, visit);
 }
 
 // Throws SceneError naming `item` and `field` for the first of the value's numbers that is out of range.

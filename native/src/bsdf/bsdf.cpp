@@ -5,6 +5,24 @@
 #include <algorithm>
 
 namespace basicrt {
+
+BsdfValue Bsdf::eval_kinds(Vec3f wo, Vec3f wi, std::uint32_t kinds) const {
+  const Side side = find_side(wo);
+  const Vec3f local_wi = frame_.to_local(wi * side.sign);
+  if (leaks(side, wi, local_wi)) return {};
+  BsdfValue sum{.pdf = eval_lobes(side.wo, local_wi, nullptr).pdf};
+  for (const WeightedLobe& weighted : lobes_.used()) {
+    std::visit(
+        [&]<class OneLobe>(const OneLobe& lobe) {
+          ScatterKind kind = local_wi.z > 0 ? ScatterKind::glossy : ScatterKind::transmission;
+          if constexpr (is_reflection<OneLobe>) kind = OneLobe::reflection_kind;
+          if ((ray_kind(kind) & kinds) != 0) sum.value += weighted.weight * lobe.eval(side.wo, local_wi).value;
+        },
+        weighted.lobe);
+  }
+  return sum;
+}
+
 std::optional<BsdfSample> Bsdf::sample(Vec3f wo, float choice, Vec2f u) const {
   const std::span<const WeightedLobe> lobes = lobes_.used();
   if (lobes.empty()) return std::nullopt;

@@ -15,9 +15,25 @@
 #include "geometry/surface_point.h"
 #include "math/color.h"
 #include "math/frame.h"
+#include "math/ray.h"
 #include "shading/material.h"
 
 namespace basicrt {
+
+// The RayKind of a ray that was scattered so; 0 for one that passed straight through and keeps its own.
+[[nodiscard]] inline std::uint32_t ray_kind(ScatterKind kind) {
+  switch (kind) {
+    case ScatterKind::diffuse:
+      return ray_diffuse;
+    case ScatterKind::glossy:
+      return ray_glossy;
+    case ScatterKind::transmission:
+      return ray_transmission;
+    case ScatterKind::transparent:
+      break;
+  }
+  return 0;
+}
 
 struct BsdfSample {
   Vec3f wi;       // world space
@@ -50,6 +66,7 @@ class Bsdf {
         albedo_(other.albedo_),
         selection_(other.selection_),
         has_only_deltas_(other.has_only_deltas_),
+        only_reflects_(other.only_reflects_),
         lobes_(other.lobes_) {}
 
   // Adds a lobe with a colour weight; black ones are left out. `albedo` is a guess of the share that the lobe itself
@@ -64,23 +81,45 @@ class Bsdf {
     selection_ += selection;
     albedo_ += share;
     has_only_deltas_ = has_only_deltas_ && lobe.is_delta();
+    only_reflects_ = only_reflects_ && (is_reflection<OneLobe> || lobe.is_delta());
   }
 
   // wo is the direction that the lobes were made for.
   [[nodiscard]] BsdfValue eval(Vec3f wo, Vec3f wi) const;
+  // The same for a light that meets the smooth surface which the shading normal stands for: it may stand behind the
+  // facet that stands in for it. sample() gives no such direction, so its density is 0.
+  [[nodiscard]] BsdfValue eval_smooth(Vec3f wo, Vec3f wi) const;
+  // The value of those scatterings only that rays of the given kinds (RayKind bits) follow; the density of all.
+  [[nodiscard]] BsdfValue eval_kinds(Vec3f wo, Vec3f wi, std::uint32_t kinds) const;
   // `choice` picks the lobe, `u` the direction. Nothing where the light is absorbed.
   [[nodiscard]] std::optional<BsdfSample> sample(Vec3f wo, float choice, Vec2f u) const;
 
   // Then eval() is zero everywhere and lights need not be sampled.
   [[nodiscard]] bool has_only_deltas() const { return has_only_deltas_; }
   [[nodiscard]] bool is_empty() const { return lobes_.count == 0; }
+  // Where all light must come from that eval() is to see: the side of a surface with this normal, of unit length. Zero
+  // where it may come from anywhere.
+  [[nodiscard]] Vec3f lit_side(Vec3f wo) const {
+    return only_reflects_ ? frame_.normal * (dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f) : Vec3f(0.0f);
+  }
   // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
+
+  // Makes microfacets' alpha at least so much, mirrors rough. See adjust.cpp for this and the next.
+  void roughen(float least_alpha);
+  // Leaves out reflection by microfacets and mirrors, transmission by them, or both.
+  void remove_glossy(bool removes_reflection, bool removes_transmission);
+  void remove_opaque();  // all but what passes straight through
+  // The alpha of the smoothest interface that light is transmitted through; infinite where there is none.
+  [[nodiscard]] float transmission_alpha() const;
 
   // The frame's tangent matters only to stretched lobes.
   void set_frame(const Frame& shading_frame) { frame_ = shading_frame; }
 
  private:
+  template <class OneLobe>
+  static constexpr bool is_reflection = requires { OneLobe::reflection_kind; };
+
   struct WeightedLobe {
     Lobe lobe;
     Color weight;
@@ -120,12 +159,13 @@ class Bsdf {
     return (dot(geometric_normal_, world_wi) * side.sign > 0) != (local_wi.z > 0);
   }
   [[nodiscard]] LobeValue eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except) const;
+  void rebuild(auto&& change);
 
   Frame frame_;
   Vec3f geometric_normal_{0, 0, 1};
   Color albedo_{0.0f};
   float selection_ = 0;
-  bool has_only_deltas_ = true;
+  bool has_only_deltas_ = true, only_reflects_ = true;
   LobeList lobes_;
 };
 
@@ -152,10 +192,20 @@ inline BsdfValue Bsdf::eval(Vec3f wo, Vec3f wi) const {
   return {sum.value, sum.pdf};
 }
 
+inline BsdfValue Bsdf::eval_smooth(Vec3f wo, Vec3f wi) const {
+  const Side side = find_side(wo);
+  const Vec3f local_wi = frame_.to_local(wi * side.sign);
+  const bool is_leak = leaks(side, wi, local_wi);
+  if (is_leak && !(local_wi.z > 0)) return {};
+  const LobeValue sum = eval_lobes(side.wo, local_wi, nullptr);
+  return {sum.value, is_leak ? 0 : sum.pdf};
+}
+
 // What a material does at a surface point seen from wo: scatters, emits, and lets through unscattered.
 struct SurfaceShading {
   Bsdf bsdf;
   Color emission{0.0f};  // radiance towards wo
+  float holdout = 0;     // the share that is a hole
   // It is the same, but for the frame, at every point and for every wo on this side of the surface.
   bool is_uniform = true;
 };
@@ -171,7 +221,8 @@ struct SurfaceShading {
 // Whether shade() looks at the point's dpdu and so on: add_derivatives() first.
 [[nodiscard]] bool needs_derivatives(const Material& material);
 
-// What the front (where the normal points) or the back of a surface emits, in every direction alike.
+// What the front (where the normal points) or the back of a surface emits, in every direction alike. Black where it is
+// not the same at every point: such light is found by rays alone.
 enum class SurfaceSide : std::uint8_t { front, back };
 [[nodiscard]] Color emitted_radiance(const Material& material, SurfaceSide side);
 [[nodiscard]] bool is_emissive(const Material& material);

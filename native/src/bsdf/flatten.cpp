@@ -23,6 +23,10 @@ struct Target {
     shading.is_uniform = shading.is_uniform && is_constant(input, textures);
     return eval_color(input, textures, point.uv);
   }
+  [[nodiscard]] float eval(const ShareInput& input) const {
+    shading.is_uniform = shading.is_uniform && is_constant(input, textures);
+    return eval_share(input, textures, point.uv);
+  }
   // Between the viewer and the shading normal on his side, at least 0.
   [[nodiscard]] float cos_theta() const {
     shading.is_uniform = false;
@@ -96,8 +100,11 @@ void flatten(const TransparentShader& node, const Target& target, float weight) 
 }
 
 void flatten(const EmissionShader& node, const Target& target, float weight) {
-  if (node.is_two_sided || !target.is_back) target.shading.emission += node.radiance * weight;
+  if (node.is_two_sided || !target.is_back)
+    target.shading.emission += target.eval(node.radiance) * (node.strength * weight);
 }
+
+void flatten(const HoldoutShader&, const Target& target, float weight) { target.shading.holdout += weight; }
 
 void add_metal(const PrincipledShader& node, const Target& target, Color base, float weight) {
   const SchlickFresnel fresnel{base};
@@ -125,9 +132,10 @@ void add_reflection_over_diffuse(const PrincipledShader& node, const Target& tar
 // From the top down, each layer by what the ones above leave: transparency, emission, metal, glass, and a dielectric
 // reflection over diffuse.
 void flatten(const PrincipledShader& node, const Target& target, float weight) {
-  target.shading.bsdf.add(Transparent{}, Color(weight * (1 - node.alpha)));
-  weight *= node.alpha;
-  target.shading.emission += node.emission * weight;
+  const float alpha = target.eval(node.alpha);
+  target.shading.bsdf.add(Transparent{}, Color(weight * (1 - alpha)));
+  weight *= alpha;
+  target.shading.emission += target.eval(node.emission) * (node.emission_strength * weight);
 
   const Color base = target.eval(node.base_color);
   if (node.metallic > 0) add_metal(node, target, base, weight * node.metallic);
@@ -150,7 +158,9 @@ SurfaceShading shade(const Material& material, const Table<Texture>& textures, c
   SurfaceShading shading{Bsdf(make_frame(point.shading_normal), point.geometric_normal)};
   const bool is_back = dot(point.geometric_normal, wo) < 0;
   const Target target{textures, point, wo, is_back, shading};
-  for_each_leaf(material, [&](const auto& node, float weight) { flatten(node, target, weight); });
+  for_each_leaf(
+      material, material.surface, 1, [&](const ShareInput& input) { return target.eval(input); },
+      [&](const auto& node, float weight) { flatten(node, target, weight); });
   return shading;
 }
 

@@ -8,6 +8,8 @@
 namespace basicrt {
 
 struct Lambert {
+  static constexpr ScatterKind reflection_kind = ScatterKind::diffuse;
+
   [[nodiscard]] bool is_delta() const { return false; }
 
   [[nodiscard]] LobeValue eval(Vec3f /*wo*/, Vec3f wi) const {

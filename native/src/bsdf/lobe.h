@@ -6,6 +6,11 @@
 //   std::optional<LobeSample> sample(Vec3f wo, float choice, Vec2f u) const;  nothing: absorbed
 //   bool is_delta() const;
 //
+// One that scatters in one way alone says so, and so promises that it only reflects:
+//
+//   static constexpr ScatterKind reflection_kind = ...;
+//
+// Any other is glossy on the viewer's side and transmits to the far one.
 // wo.z may be negative where the shading normal turns away from the viewer, who is still on the front of the surface.
 #pragma once
 

@@ -13,19 +13,23 @@ Color transparency(const Material& material, const Table<Texture>& textures, con
   Color sum(0.0f);
   const Overloaded leaf{
       [&](const TransparentShader& node, float weight) { sum += eval_color(node.color, textures, point.uv) * weight; },
-      [&](const PrincipledShader& node, float weight) { sum += Color((1 - node.alpha) * weight); },
+      [&](const PrincipledShader& node, float weight) {
+        sum += Color((1 - eval_share(node.alpha, textures, point.uv)) * weight);
+      },
       [](const auto& /*opaque*/, float) {}};
-  for_each_leaf(material, leaf);
+  const auto share_of = [&](const ShareInput& input) { return eval_share(input, textures, point.uv); };
+  for_each_leaf(material, material.surface, 1, share_of, leaf);
   return sum;
 }
 
 bool is_transparent(const Material& material) {
   bool result = false;
-  const Overloaded leaf{[&](const TransparentShader& node, float) {
-                          result |= node.color.texture.is_valid() || !is_black(node.color.constant);
-                        },
-                        [&](const PrincipledShader& node, float) { result |= node.alpha < 1; },  //
-                        [](const auto& /*opaque*/, float) {}};
+  const Overloaded leaf{
+      [&](const TransparentShader& node, float) {
+        result |= node.color.texture.is_valid() || !is_black(node.color.constant);
+      },
+      [&](const PrincipledShader& node, float) { result |= node.alpha.texture.is_valid() || node.alpha.constant < 1; },
+      [](const auto& /*opaque*/, float) {}};
   for_each_leaf(material, leaf);
   return result;
 }
@@ -40,14 +44,27 @@ bool needs_derivatives(const Material& material) {
 
 Color emitted_radiance(const Material& material, SurfaceSide side) {
   Color sum(0.0f);
-  const Overloaded leaf{
-      [&](const EmissionShader& node, float weight) {
-        if (node.is_two_sided || side == SurfaceSide::front) sum += node.radiance * weight;
-      },
-      [&](const PrincipledShader& node, float weight) { sum += node.emission * (node.alpha * weight); },
-      [](const auto& /*dark*/, float) {}};
-  for_each_leaf(material, leaf);
-  return sum;
+  bool varies = false, shines = false;
+  const auto add = [&](const ColorInput& radiance, float weight) {
+    varies = varies || radiance.texture.is_valid();
+    shines = shines || radiance.texture.is_valid() || !is_black(radiance.constant);
+    sum += radiance.constant * weight;
+  };
+  const Overloaded leaf{[&](const EmissionShader& node, float weight) {
+                          if (node.is_two_sided || side == SurfaceSide::front)
+                            add(node.radiance, node.strength * weight);
+                        },
+                        [&](const PrincipledShader& node, float weight) {
+                          varies = varies || node.alpha.texture.is_valid();
+                          add(node.emission, node.emission_strength * node.alpha.constant * weight);
+                        },
+                        [](const auto& /*dark*/, float) {}};
+  const auto share_of = [&](const ShareInput& input) {
+    varies = varies || input.texture.is_valid();
+    return input.texture.is_valid() ? 0.5f : input.constant;
+  };
+  for_each_leaf(material, material.surface, 1, share_of, leaf);
+  return varies && shines ? Color(0.0f) : sum;
 }
 
 bool is_emissive(const Material& material) {
@@ -59,9 +76,11 @@ namespace {
 
 // Each of the layers that flatten() makes of it.
 int count_lobes(const PrincipledShader& node) {
-  if (node.alpha == 0) return 1;
+  const bool is_varied = node.alpha.texture.is_valid();
+  if (!is_varied && node.alpha.constant == 0) return 1;
   const bool is_dielectric = node.metallic < 1, is_opaque = is_dielectric && node.transmission < 1;
-  return (node.alpha < 1) + (node.metallic > 0) + (is_dielectric && node.transmission > 0) + 2 * is_opaque;
+  return (is_varied || node.alpha.constant < 1) + (node.metallic > 0) + (is_dielectric && node.transmission > 0) +
+         2 * is_opaque;
 }
 
 }  // namespace

@@ -11,6 +11,8 @@ namespace basicrt {
 // Single scattering: what bounces between microfacets is lost, see albedo.h for its compensation.
 template <class Fresnel>
 struct MicrofacetReflection {
+  static constexpr ScatterKind reflection_kind = ScatterKind::glossy;
+
   Microfacets microfacets;
   Fresnel fresnel;
 

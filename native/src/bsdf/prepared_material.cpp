@@ -26,7 +26,8 @@ SurfaceShading shade(const PreparedMaterial& prepared, const Table<Texture>& tex
                      Vec3f wo) {
   const std::optional<SurfaceShading>& uniform = dot(point.geometric_normal, wo) < 0 ? prepared.back : prepared.front;
   if (!uniform) return shade(prepared.material, textures, point, wo);
-  return {Bsdf(make_frame(point.shading_normal), point.geometric_normal, uniform->bsdf), uniform->emission};
+  return {Bsdf(make_frame(point.shading_normal), point.geometric_normal, uniform->bsdf), uniform->emission,
+          uniform->holdout};
 }
 
 }  // namespace basicrt

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "base/assert.h"
@@ -13,6 +14,7 @@
 #include "bvh/split_bins.h"
 #include "bvh/tree_access.h"
 #include "bvh/tree_layout.h"
+#include "math/next_float.h"
 
 namespace basicrt {
 namespace {
@@ -37,35 +39,67 @@ void for_each(WorkerPool& pool, WorkProgress* progress, std::size_t count, const
   });
 }
 
-TreeLayout build_layout(const Mesh& mesh, const BvhConfig& config, WorkerPool& pool) {
-  const std::size_t count = mesh.triangles.size();
+// Over boxes that no builder may cut: bounds_of(i) is the one of triangle i.
+template <class BoundsOf>
+TreeLayout build_layout_over(std::size_t count, const BoundsOf& bounds_of, const BvhConfig& config, WorkerPool& pool) {
   BASICRT_ASSERT(count < Reference::most_primitives);
   if (config.builder == BvhBuilder::median) {
     std::vector<Bounds3f> boxes(count);
-    for_each(pool, config.progress, count,
-             [&](std::size_t i) { boxes[i] = triangle_bounds(mesh, static_cast<std::uint32_t>(i)); });
+    for_each(pool, config.progress, count, [&](std::size_t i) { boxes[i] = bounds_of(static_cast<std::uint32_t>(i)); });
     return collapse_to_layout(build_median_bvh(boxes, config), boxes, block_size, config.progress);
   }
+  HugeVector<Reference> references(count);
+  for_each(pool, config.progress, count, [&](std::size_t i) {
+    references[i] = Reference(bounds_of(static_cast<std::uint32_t>(i)), static_cast<std::uint32_t>(i));
+  });
+  const int bins = config.builder == BvhBuilder::split_sah ? fine_bins : coarse_bins;
+  return build_sah_layout(std::move(references), config.leaf_size, bins, pool, config.progress);
+}
+
+TreeLayout build_layout(const Mesh& mesh, const BvhConfig& config, WorkerPool& pool) {
+  const std::size_t count = mesh.triangles.size();
+  BASICRT_ASSERT(count < Reference::most_primitives);
   if (config.builder == BvhBuilder::split_sah) {
     const auto most_cuts = static_cast<std::size_t>(cut_budget * static_cast<double>(count));
     return build_sah_layout(cut_references(mesh, most_cuts, pool, config.progress), block_size, fine_bins, pool,
                             config.progress);
   }
-  HugeVector<Reference> references(count);
-  for_each(pool, config.progress, count, [&](std::size_t i) {
-    references[i] = Reference(triangle_bounds(mesh, static_cast<std::uint32_t>(i)), static_cast<std::uint32_t>(i));
-  });
-  return build_sah_layout(std::move(references), config.leaf_size, coarse_bins, pool, config.progress);
+  return build_layout_over(
+      count, [&](std::uint32_t triangle) { return triangle_bounds(mesh, triangle); }, config, pool);
 }
 
-void set_corners(TriangleBlock& block, std::size_t lane, const Mesh& mesh) {
-  for (int corner = 0; corner < 3; ++corner) {
-    const Vec3f position = mesh.position(block.primitives[lane], corner);
-    for (std::size_t axis = 0; axis < 3; ++axis) block.corners[corner][axis][lane] = position[axis];
+// Of a triangle from one key to the next. Interpolating rounds: each of three operations by half a unit in the last
+// place of twice the largest coordinate at most, for which this has room.
+Bounds3f moving_bounds(const Mesh& mesh, std::uint32_t triangle, std::size_t first_key) {
+  Bounds3f box;
+  for (const std::uint32_t vertex : mesh.triangles[triangle])
+    for (const std::size_t key : {first_key, first_key + 1}) box.extend(mesh.positions_of_key(key)[vertex]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float padding = std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis])) * 0x1p-21f;
+    box.lower[axis] = next_float_down(box.lower[axis] - padding);
+    box.upper[axis] = next_float_up(box.upper[axis] + padding);
   }
+  return box;
 }
 
-void fill(TriangleBlock& block, const Mesh& mesh, std::span<const std::uint32_t> leaf) {
+template <std::size_t lanes>
+void set_corner(float (&corner)[3][lanes], std::size_t lane, Vec3f position) {
+  for (std::size_t axis = 0; axis < 3; ++axis) corner[axis][lane] = position[axis];
+}
+void set_corners(TriangleBlock& block, std::size_t lane, const Mesh& mesh) {
+  for (int corner = 0; corner < 3; ++corner)
+    set_corner(block.corners[corner], lane, mesh.position(block.primitives[lane], corner));
+}
+void set_corners(MovingTriangleBlock& block, std::size_t lane, const Mesh& mesh, std::size_t first_key) {
+  const auto& vertices = mesh.triangles[block.primitives[lane]];
+  for (std::size_t end = 0; end < 2; ++end)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      set_corner(block.corners[end][corner], lane, mesh.positions_of_key(first_key + end)[vertices[corner]]);
+}
+
+// Calls place(lane) for each lane, after it has its triangle.
+template <class Block, class Place>
+void fill(Block& block, std::span<const std::uint32_t> leaf, const Place& place) {
   std::array<std::uint32_t, block_size> triangles;
   triangles.fill(Reference::most_primitives);  // sorts last
   std::copy(leaf.begin(), leaf.end(), triangles.begin());
@@ -73,7 +107,7 @@ void fill(TriangleBlock& block, const Mesh& mesh, std::span<const std::uint32_t>
   for (std::size_t lane = 0; lane < block_size; ++lane) {
     const std::uint32_t triangle = triangles[std::min(lane, leaf.size() - 1)];
     block.primitives[lane] = triangle;
-    set_corners(block, lane, mesh);
+    place(lane);
   }
 }
 
@@ -104,8 +138,33 @@ MeshTree build_mesh_tree(const Mesh& mesh, const BvhConfig& config) {
   TreeLayout layout = build_layout(mesh, config, pool);
   MeshTree result{.tree = {std::move(layout.nodes), layout.root, layout.bounds}, .blocks = {}};
   result.blocks.resize(layout.leaf_count());
-  for_each(pool, config.progress, result.blocks.size(),
-           [&](std::size_t i) { fill(result.blocks[i], mesh, layout.leaf(i)); });
+  for_each(pool, config.progress, result.blocks.size(), [&](std::size_t i) {
+    fill(result.blocks[i], layout.leaf(i), [&](std::size_t lane) { set_corners(result.blocks[i], lane, mesh); });
+  });
+  return result;
+}
+
+MovingMeshTree build_moving_mesh_tree(const Mesh& mesh, const BvhConfig& config) {
+  WorkerPool pool = make_pool(mesh.triangles.size(), config);
+  const auto as_moving = [](TreeReference reference) {
+    const bool is_leaf = reference != no_reference && (reference & triangles_mark) != 0;
+    return is_leaf ? moving_triangles_mark | (reference & reference_index) : reference;
+  };
+  MovingMeshTree result;
+  for (std::size_t first_key = 0; first_key < mesh.motion_intervals(); ++first_key) {
+    const auto bounds_of = [&](std::uint32_t triangle) { return moving_bounds(mesh, triangle, first_key); };
+    TreeLayout layout = build_layout_over(mesh.triangles.size(), bounds_of, config, pool);
+    for (TreeNode& node : layout.nodes)
+      for (TreeReference& child : node.children) child = as_moving(child);
+    MovingMeshTree::Interval& added = result.intervals.emplace_back();
+    added.tree = {std::move(layout.nodes), as_moving(layout.root), layout.bounds};
+    added.blocks.resize(layout.leaf_count());
+    for_each(pool, config.progress, added.blocks.size(), [&](std::size_t i) {
+      fill(added.blocks[i], layout.leaf(i),
+           [&](std::size_t lane) { set_corners(added.blocks[i], lane, mesh, first_key); });
+    });
+    result.bounds.extend(layout.bounds);
+  }
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "base/huge_pages.h"
 #include "bvh/bvh.h"
@@ -30,8 +31,27 @@ struct MeshTree {
   }
 };
 
+// Of a mesh that deforms: a tree for each interval between two keys, in whose boxes the triangles stay throughout.
+struct MovingMeshTree {
+  struct Interval {
+    NodeTree tree;  // its leaves are `blocks`, marked as moving triangles
+    HugeVector<MovingTriangleBlock> blocks;
+  };
+  std::vector<Interval> intervals;
+  Bounds3f bounds;  // at all times
+
+  [[nodiscard]] std::size_t memory() const {  // bytes
+    std::size_t bytes = 0;
+    for (const Interval& interval : intervals)
+      bytes += interval.tree.memory() + interval.blocks.size() * sizeof(MovingTriangleBlock);
+    return bytes;
+  }
+};
+
 // The same for any number of threads.
 [[nodiscard]] MeshTree build_mesh_tree(const Mesh& mesh, const BvhConfig& config);
+
+[[nodiscard]] MovingMeshTree build_moving_mesh_tree(const Mesh& mesh, const BvhConfig& config);
 
 // Moves the tree along with a mesh that has the triangles it was built from, elsewhere: hits are right again, though
 // the tree is no better than it can be for that.

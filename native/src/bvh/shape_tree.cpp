@@ -8,6 +8,11 @@ namespace basicrt {
 
 ShapeTree build_shape_tree(const Shape& shape, const BvhConfig& config) {
   return std::visit(Overloaded{[&](const Mesh& mesh) {
+                                 if (mesh.is_deforming()) {
+                                   MovingMeshTree tree = build_moving_mesh_tree(mesh, config);
+                                   const Bounds3f bounds = tree.bounds;
+                                   return ShapeTree{std::move(tree), bounds};
+                                 }
                                  MeshTree tree = build_mesh_tree(mesh, config);
                                  const Bounds3f bounds = tree.tree.bounds;
                                  return ShapeTree{std::move(tree), bounds};

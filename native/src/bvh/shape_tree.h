@@ -12,7 +12,7 @@ namespace basicrt {
 
 // Keeps no pointer to the shape it was built from.
 struct ShapeTree {
-  std::variant<MeshTree, Sphere> geometry;
+  std::variant<MeshTree, MovingMeshTree, Sphere> geometry;
   Bounds3f bounds;  // empty where there is nothing to hit
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "base/assert.h"
@@ -15,6 +16,7 @@
 #include "bvh/kernels/scratch.h"
 #include "bvh/precise_walk.h"
 #include "bvh/tree_access.h"
+#include "geometry/motion.h"
 #include "geometry/precise_ray.h"
 #include "geometry/triangle.h"
 #include "math/next_float.h"
@@ -40,7 +42,17 @@ float reach_of(const Bounds3f& box) { return max_component(max(abs(box.lower), a
 // Beyond, products of coordinates may overflow or underflow single precision.
 bool is_usable_for_kernels(const Bounds3f& box) { return reach_of(box) >= 0x1p-40f && reach_of(box) <= 0x1p40f; }
 
-// `mesh` is null where the instance is of another shape.
+// Empty where the tree isn't of a mesh that deforms, or not one for kernels.
+std::vector<KernelInterval> kernel_intervals(const ShapeTree& tree) {
+  const auto* mesh = std::get_if<MovingMeshTree>(&tree.geometry);
+  std::vector<KernelInterval> result;
+  if (mesh == nullptr || !is_usable_for_kernels(mesh->bounds)) return result;
+  for (const MovingMeshTree::Interval& interval : mesh->intervals)
+    result.push_back({interval.tree.nodes.data(), interval.blocks.data(), interval.tree.root});
+  return result;
+}
+
+// `mesh` is null where the instance is of another shape than a still mesh.
 KernelInstance kernel_instance(const MeshTree* mesh, const TracedInstance& instance) {
   KernelInstance result{};
   for (std::size_t row = 0; row < 3; ++row)
@@ -48,7 +60,8 @@ KernelInstance kernel_instance(const MeshTree* mesh, const TracedInstance& insta
       result.world_to_object[row][column] = instance.world_to_object.rows[row][column];
   result.root = result.first_merged = no_reference;
   result.visibility = instance.visibility;
-  result.space = space_of(instance.world_to_object);
+  result.space = instance.motion.empty() ? space_of(instance.world_to_object) : KernelInstance::Space::moving;
+  result.motion = instance.motion.empty() ? nullptr : &instance.motion;
   if (mesh == nullptr || !is_usable_for_kernels(mesh->tree.bounds)) return result;
   result.reach = reach_of(mesh->tree.bounds);
   result.nodes = mesh->tree.nodes.data();
@@ -77,9 +90,9 @@ std::vector<std::array<Vec3f, 3>> world_triangles(const MeshTree& mesh, const Tr
 }
 
 // The box of an instance in the world, with room for what its two transforms don't agree on.
-Bounds3f world_bounds(const Bounds3f& local, const TracedInstance& instance) {
+Bounds3f world_bounds(const Bounds3f& local, const TransformD& object_to_world, const TransformD& world_to_object) {
   const Bounds3<double> box =
-      transform_bounds(instance.object_to_world, Bounds3<double>{Vec3d(local.lower), Vec3d(local.upper)});
+      transform_bounds(object_to_world, Bounds3<double>{Vec3d(local.lower), Vec3d(local.upper)});
   Bounds3f result;
   if (box.is_empty()) return result;
   const Vec3d reach = max(abs(box.lower), abs(box.upper));
@@ -87,7 +100,7 @@ Bounds3f world_bounds(const Bounds3f& local, const TracedInstance& instance) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = 0; k < 3; ++k)
-        margin[i] += std::abs(instance.object_to_world.rows[i][j] * instance.world_to_object.rows[j][k]) * reach[k];
+        margin[i] += std::abs(object_to_world.rows[i][j] * world_to_object.rows[j][k]) * reach[k];
   for (std::size_t i = 0; i < 3; ++i) {
     const double padding = margin[i] * 16 * std::numeric_limits<double>::epsilon();
     result.lower[i] = next_float_down(static_cast<float>(box.lower[i] - padding));
@@ -96,7 +109,20 @@ Bounds3f world_bounds(const Bounds3f& local, const TracedInstance& instance) {
   return result;
 }
 
-TransformD world_to_object(const KernelInstance& instance) {
+// At all times: what moves along a line stays within the boxes of the line's ends.
+Bounds3f world_bounds(const Bounds3f& local, const TracedInstance& instance) {
+  if (instance.motion.empty()) return world_bounds(local, instance.object_to_world, instance.world_to_object);
+  Bounds3f result;
+  for (const TransformD& key : instance.motion) result.extend(world_bounds(local, key, inverse(key)));
+  return result;
+}
+
+TransformD world_to_object_at(const KernelInstance& instance, float time) {
+  return inverse(transform_at(*static_cast<const std::vector<TransformD>*>(instance.motion), time));
+}
+
+TransformD world_to_object(const KernelInstance& instance, float time) {
+  if (instance.motion != nullptr) return world_to_object_at(instance, time);
   TransformD result;
   for (std::size_t row = 0; row < 3; ++row)
     for (std::size_t column = 0; column < 4; ++column) result.rows[row][column] = instance.world_to_object[row][column];
@@ -105,8 +131,9 @@ TransformD world_to_object(const KernelInstance& instance) {
 
 double plane_distance(const KernelInstance& instance, const KernelRay& ray, const float (&corners)[3][3]) {
   const auto corner = [&](int i) { return Vec3f{corners[i][0], corners[i][1], corners[i][2]}; };
-  const PreciseRay local = transform_ray(world_to_object(instance), std::bit_cast<Ray>(ray));
-  return intersect_triangle_plane(local, corner(0), corner(1), corner(2)).t;
+  const PreciseRay local = transform_ray(world_to_object(instance, ray.time), std::bit_cast<Ray>(ray));
+  // No negative zero: which of two zeros is the smaller would be left to the instruction set.
+  return intersect_triangle_plane(local, corner(0), corner(1), corner(2)).t + 0.0;
 }
 
 }  // namespace
@@ -118,13 +145,20 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
 Tracer::Tracer(std::vector<ShapeTree> trees, std::vector<TracedInstance> instances, const BvhConfig& config)
     : kernel_(&chosen_kernel()), trees_(std::move(trees)), instances_(std::move(instances)) {
+  for (const ShapeTree& tree : trees_) kernel_intervals_.push_back(kernel_intervals(tree));
   std::vector<Bounds3f> boxes;
   for (const TracedInstance& instance : instances_) {
     BASICRT_ASSERT(instance.shape < trees_.size());
     const ShapeTree& tree = trees_[instance.shape];
     boxes.push_back(world_bounds(tree.bounds, instance));
     bounds_.extend(boxes.back());
-    kernel_instances_.push_back(kernel_instance(std::get_if<MeshTree>(&tree.geometry), instance));
+    KernelInstance& added =
+        kernel_instances_.emplace_back(kernel_instance(std::get_if<MeshTree>(&tree.geometry), instance));
+    const std::vector<KernelInterval>& intervals = kernel_intervals_[instance.shape];
+    if (intervals.empty()) continue;
+    added.reach = reach_of(tree.bounds);
+    added.intervals = intervals.data();
+    added.interval_count = static_cast<std::uint32_t>(intervals.size());
   }
   merge_small_meshes(boxes, config);
   for (std::size_t i = 0; i < instances_.size(); ++i)
@@ -141,7 +175,7 @@ void Tracer::merge_small_meshes(std::span<const Bounds3f> boxes, const BvhConfig
     const TracedInstance& instance = instances_[i];
     const auto* mesh = std::get_if<MeshTree>(&trees_[instance.shape].geometry);
     const bool is_small = mesh != nullptr && 4 * mesh->blocks.size() < smallest_own_tree;
-    if (!is_small || use_counts[instance.shape] > 1 || instance.visibility != ray_all ||
+    if (!is_small || use_counts[instance.shape] > 1 || instance.visibility != ray_all || !instance.motion.empty() ||
         kernel_instances_[i].root == no_reference || !is_usable_for_kernels(boxes[i]))
       continue;
     kernel_instances_[i].first_merged = static_cast<std::uint32_t>(merged.triangles.size());
@@ -161,14 +195,22 @@ void Tracer::merge_small_meshes(std::span<const Bounds3f> boxes, const BvhConfig
   kernel_instances_.push_back(all);
 }
 
+// `instance` may be that of the merged meshes, behind all others.
 bool Tracer::intersect_precisely(std::uint32_t instance, const Ray& ray, Hit& hit) const {
-  const TracedInstance& placed = instances_[instance];
-  PreciseRay local = transform_ray(placed.world_to_object, ray);
+  PreciseRay local = transform_ray(world_to_object(kernel_instances_[instance], ray.time), ray);
   local.t_max = std::min(local.t_max, static_cast<double>(hit.t));
-  const auto found =
-      std::visit(Overloaded{[&](const MeshTree& mesh) { return intersect_mesh_precisely(mesh, local); },
-                            [&](const Sphere& sphere) { return intersect_sphere_precisely(sphere, local); }},
-                 trees_[placed.shape].geometry);
+  const bool is_merged = instance == instances_.size();
+  std::uint32_t skipped = Hit::none;
+  if (ray.from_instance == instance)
+    skipped = ray.from_primitive;
+  else if (const std::uint32_t from = ray.from_instance;
+           is_merged && from != Hit::none && kernel_instances_[from].first_merged != no_reference)
+    skipped = kernel_instances_[from].first_merged + ray.from_primitive;
+  const auto in_mesh = [&](const auto& mesh) { return intersect_mesh_precisely(mesh, local, skipped); };
+  const auto on_sphere = [&](const Sphere& sphere) { return intersect_sphere_precisely(sphere, local); };
+  const std::optional<Hit> found =
+      is_merged ? in_mesh(merged_)
+                : std::visit(Overloaded{on_sphere, in_mesh}, trees_[instances_[instance].shape].geometry);
   if (!found) return false;
   hit = *found;
   hit.instance = instance;
@@ -188,7 +230,13 @@ KernelScene Tracer::kernel_scene() const {
                 hit = std::bit_cast<KernelHit>(nearest);
                 return is_hit;
               },
-          .plane_distance = plane_distance};
+          .plane_distance = plane_distance,
+          .world_to_object_at =
+              [](const KernelInstance& instance, float time, double (&result)[3][4]) {
+                const TransformD transform = world_to_object_at(instance, time);
+                for (std::size_t row = 0; row < 3; ++row)
+                  for (std::size_t column = 0; column < 4; ++column) result[row][column] = transform.rows[row][column];
+              }};
 }
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
@@ -204,7 +252,9 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> results
 std::size_t Tracer::memory() const {
   std::size_t bytes = instance_tree_.memory() + merged_.memory();
   for (const ShapeTree& tree : trees_)
-    if (const auto* mesh = std::get_if<MeshTree>(&tree.geometry)) bytes += mesh->memory();
+    bytes += std::visit(
+        Overloaded{[](const Sphere&) -> std::size_t { return 0; }, [](const auto& mesh) { return mesh.memory(); }},
+        tree.geometry);
   return bytes;
 }
 

@@ -19,6 +19,8 @@ struct TracedInstance {
   TransformD object_to_world;
   TransformD world_to_object;
   std::uint32_t visibility = ray_all;  // RayKind bits
+  // Object to world at equally spaced times from 0 to 1, linear between them, instead of the two above; none: it stands still.
+  std::vector<TransformD> motion;
 };
 
 class Tracer {
@@ -55,6 +57,7 @@ class Tracer {
   const Kernel* kernel_;
   std::vector<ShapeTree> trees_;
   std::vector<TracedInstance> instances_;
+  std::vector<std::vector<KernelInterval>> kernel_intervals_;  // of each tree
   std::vector<KernelInstance> kernel_instances_;
   MeshTree merged_;  // of small meshes that are used once, in world space
   std::vector<TriangleOwner> merged_owners_;

@@ -7,8 +7,9 @@
 
 namespace basicrt {
 
-// What a child is, and where: a node by its index, a block of triangles or an instance by its index and this mark.
+// What a child is, and where: a node by its index; a block of triangles, which may move, or an instance by its index and this mark.
 using TreeReference = std::uint32_t;
+inline constexpr TreeReference moving_triangles_mark = 0x4000'0000u;
 inline constexpr TreeReference triangles_mark = 0x8000'0000u;
 inline constexpr TreeReference instance_mark = 0xC000'0000u;
 inline constexpr TreeReference reference_index = 0x3FFF'FFFFu;  // the bits of the index
@@ -30,6 +31,12 @@ struct alignas(64) TreeNode {
 // copies of the last.
 struct alignas(32) TriangleBlock {
   float corners[3][3][4];  // [corner][axis][triangle]
+  std::uint32_t primitives[4];
+};
+
+// The same of triangles that move along lines between two moments.
+struct alignas(32) MovingTriangleBlock {
+  float corners[2][3][3][4];  // [start, end][corner][axis][triangle]
   std::uint32_t primitives[4];
 };
 

@@ -14,6 +14,20 @@ namespace basicrt {
   return {axes[0][lane], axes[1][lane], axes[2][lane]};
 }
 
+// The block at a moment, by the fraction of the time between start and end. Number for number as kernels do it.
+[[nodiscard]] inline TriangleBlock block_at(const MovingTriangleBlock& block, float fraction) {
+  TriangleBlock result;
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    result.primitives[lane] = block.primitives[lane];
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float start = block.corners[0][corner][axis][lane], end = block.corners[1][corner][axis][lane];
+        result.corners[corner][axis][lane] = start + (end - start) * fraction;
+      }
+  }
+  return result;
+}
+
 [[nodiscard]] inline Bounds3f child_bounds(const TreeNode& node, std::size_t child) {
   Bounds3f box;
   for (std::size_t axis = 0; axis < 3; ++axis) {

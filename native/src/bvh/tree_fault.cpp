@@ -141,7 +141,7 @@ std::string check_mesh_tree(const MeshTree& tree, const Mesh& mesh, const Visit&
 }
 
 bool is_covered(const Mesh& mesh, std::uint32_t triangle, const std::vector<Bounds3f>& boxes) {
-  std::mt19937 rng(triangle);
+  std::minstd_rand rng(triangle + 1);  // soon made
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int i = 0; i < 50; ++i) {
     double u = uniform(rng), v = i % 2 ? 0 : uniform(rng);  // half of them on an edge

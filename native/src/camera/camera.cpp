@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "geometry/motion.h"
 #include "math/frame.h"
 
 namespace basicrt {
@@ -44,6 +45,21 @@ CameraView::CameraView(const Camera& camera, Vec2i film_size) : camera_(camera) 
     has_aperture_ = kind.aperture_radius > 0;
   };
   std::visit(set, camera_);
+}
+
+MovingCamera::MovingCamera(Camera camera, Vec2i film_size) : camera_(std::move(camera)), film_size_(film_size) {
+  const auto take_keys = [&](auto& kind) {
+    if (!kind.motion_transforms.empty()) keys_.emplace_back(kind.to_world);
+    for (const Transform& key : kind.motion_transforms) keys_.emplace_back(key);
+    kind.motion_transforms.clear();  // copies of the camera are made for each ray
+  };
+  std::visit(take_keys, camera_);
+}
+
+CameraView MovingCamera::at(float time) const {
+  Camera now = camera_;
+  std::visit([&](auto& kind) { kind.to_world = Transform(transform_at(keys_, time)); }, now);
+  return {now, film_size_};
 }
 
 void CameraView::set_window(const PerspectiveCamera& camera, Vec2f step) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "camera/camera_base.h"
 #include "camera/panorama.h"
@@ -87,6 +88,22 @@ class CameraView {
   Vec3f direction_, direction_dx_, direction_dy_;
   Vec3f position_, axis_, right_, up_;  // the camera's, of unit length
   float clip_near_ = 0, clip_far_ = infinity;
+};
+
+// A camera while the shutter is open.
+class MovingCamera {
+ public:
+  MovingCamera() = default;
+  MovingCamera(Camera camera, Vec2i film_size);
+
+  [[nodiscard]] bool is_moving() const { return !keys_.empty(); }
+  // Needs a camera that moves.
+  [[nodiscard]] CameraView at(float time) const;
+
+ private:
+  Camera camera_;
+  Vec2i film_size_;
+  std::vector<TransformD> keys_;
 };
 
 }  // namespace basicrt

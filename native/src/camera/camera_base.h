@@ -4,6 +4,7 @@
 
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "base/describe.h"
 #include "math/constants.h"
@@ -22,6 +23,7 @@ struct CameraBase {
   int aperture_blades = 0;
   float aperture_rotation = 0, aperture_ratio = 1;
   float focus_distance = 10;
+  std::vector<Transform> motion_transforms;  // at further times, as of an Instance
 };
 
 // The fields of a kind of camera: these, then its own.
@@ -39,6 +41,9 @@ constexpr auto camera_fields(std::string_view window_min_doc, std::string_view w
       field<Kind, float>("aperture_rotation", &Kind::aperture_rotation, "of the blades, radians"),
       field<Kind, float>("aperture_ratio", &Kind::aperture_ratio, "the aperture's height over its width", above(0)),
       field<Kind, float>("focus_distance", &Kind::focus_distance, "what is that far is sharp, metres", above(0)),
+      field<Kind, std::vector<Transform>>(
+          "motion_transforms", &Kind::motion_transforms,
+          "camera to world at further times, equally spaced; the last is when the shutter closes"),
       own...};
 }
 

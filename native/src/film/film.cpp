@@ -8,12 +8,13 @@
 
 namespace basicrt {
 
-TileAccumulator::TileAccumulator(PixelRect rect, PassLayout layout, float negative_mass)
+TileAccumulator::TileAccumulator(PixelRect rect, PassLayout layout, float negative_mass, bool has_shadow_catchers)
     : rect_(rect),
       layout_(layout),
       negative_mass_(negative_mass),
       pixels_(static_cast<std::size_t>(rect.width) * rect.height),
-      negative_(negative_mass > 0 ? pixels_.size() : 0) {}
+      negative_(negative_mass > 0 ? pixels_.size() : 0),
+      catchers_(has_shadow_catchers ? pixels_.size() : 0) {}
 
 void TileAccumulator::add(int x, int y, const PixelSample& sample, bool is_negative) {
   const std::size_t index = static_cast<std::size_t>(y) * rect_.width + x;
@@ -22,6 +23,13 @@ void TileAccumulator::add(int x, int y, const PixelSample& sample, bool is_negat
   ++sums.count;
   sums.radiance += sample.radiance;
   sums.alpha += sample.alpha;
+  if (!catchers_.empty() && !is_negative) {
+    CatcherSample& catcher = catchers_[index];
+    catcher.lit += sample.catcher.lit;
+    catcher.unlit += sample.catcher.unlit;
+    catcher.behind += sample.catcher.behind;
+    catcher.hole += sample.catcher.hole;
+  }
   if (!sample.has_hit) return;
   sums.normal += sample.normal;
   if (pixel.depth == pass_info(Pass::depth).background) pixel.depth = sample.depth;
@@ -41,6 +49,16 @@ TileAccumulator::Mean TileAccumulator::mean(std::size_t index) const {
           p.normal + (p.normal - n.normal) * negative_mass_};
 }
 
+// What is behind catchers is darkened by the share of their light that is left.
+void TileAccumulator::add_behind_catchers(Mean& mean, std::size_t index) const {
+  const CatcherSample& sums = catchers_[index];
+  float share = 0;
+  for (int i = 0; i < 3; ++i) share += sums.unlit[i] > 0 ? std::min(sums.lit[i] / sums.unlit[i], 1.0f) / 3 : 1.0f / 3;
+  const float scale = share / static_cast<float>(std::max(pixels_[index].positive.count, 1));
+  mean.radiance += sums.behind * scale;
+  mean.alpha -= sums.hole * scale;
+}
+
 Tile TileAccumulator::finish() const {
   Tile tile{rect_, layout_, std::vector<float>(pixels_.size() * layout_.channel_count())};
   float* out = tile.values.data();
@@ -51,7 +69,8 @@ Tile TileAccumulator::finish() const {
   };
   // In the order of the table.
   write(Pass::combined, [&](std::size_t i) {
-    const Mean m = mean(i);
+    Mean m = mean(i);
+    if (!catchers_.empty()) add_behind_catchers(m, i);
     return std::array{m.radiance.x, m.radiance.y, m.radiance.z, m.alpha};
   });
   write(Pass::depth, [&](std::size_t i) { return std::array{pixels_[i].depth}; });

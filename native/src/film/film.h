@@ -10,6 +10,13 @@
 
 namespace basicrt {
 
+// What a camera sample sees by way of shadow catchers.
+struct CatcherSample {
+  Color lit{0.0f}, unlit{0.0f};  // what they reflect, and what they would without the objects that are none
+  Color behind{0.0f};            // what is seen through them
+  float hole = 0;                // how much of that is a hole in the film
+};
+
 // What the integrator says of one camera sample.
 struct PixelSample {
   Color radiance{0.0f};
@@ -17,6 +24,7 @@ struct PixelSample {
   bool has_hit = false;  // the passes below mean something
   float depth = 0;       // along the camera's axis, metres
   Vec3f normal;          // world space, unit length, towards the camera
+  CatcherSample catcher;
 };
 
 // A rectangle of pixels in film coordinates: x right, y up, (0, 0) the lower left pixel.
@@ -48,7 +56,7 @@ struct Tile {
 class TileAccumulator {
  public:
   // `negative_mass` is PixelFilter's.
-  TileAccumulator(PixelRect rect, PassLayout layout, float negative_mass = 0);
+  TileAccumulator(PixelRect rect, PassLayout layout, float negative_mass = 0, bool has_shadow_catchers = false);
 
   // `x`, `y` within the rectangle.
   void add(int x, int y, const PixelSample& sample, bool is_negative = false);
@@ -72,12 +80,14 @@ class TileAccumulator {
     Vec3f normal;
   };
   [[nodiscard]] Mean mean(std::size_t index) const;
+  void add_behind_catchers(Mean& mean, std::size_t index) const;
 
   PixelRect rect_;
   PassLayout layout_;
   float negative_mass_;
   std::vector<Pixel> pixels_;
-  std::vector<Sums> negative_;  // empty where the filter has no negative lobes
+  std::vector<Sums> negative_;           // empty where the filter has no negative lobes
+  std::vector<CatcherSample> catchers_;  // sums of positive samples; empty without shadow catchers
 };
 
 // A whole picture put together from tiles.

@@ -27,7 +27,8 @@ struct LocalDerivatives {
   Vec3d normal, dndu, dndv;  // of any length, but all of the same; zero where there is no shading normal
 };
 
-[[nodiscard]] LocalDerivatives derivatives_on_triangle(const Mesh& mesh, std::uint32_t triangle, Vec2f barycentrics);
+[[nodiscard]] LocalDerivatives derivatives_on_triangle(const Mesh& mesh, std::uint32_t triangle, Vec2f barycentrics,
+                                                       float time);
 [[nodiscard]] LocalDerivatives derivatives_on_sphere(const Sphere& sphere, Vec3d position);
 
 }  // namespace basicrt

@@ -52,12 +52,38 @@ void keep(std::vector<T>& values, const std::vector<std::uint32_t>& kept, std::s
   values = std::move(result);
 }
 
+void check_key_length(std::string_view item, std::string_view array, std::size_t key, std::size_t length,
+                      std::size_t expected) {
+  if (length != expected)
+    throw SceneError(entry(item, array, key),
+                     "has " + std::to_string(length) + " vectors, but at time 0 there are " + std::to_string(expected));
+}
+
+void validate_motion(const Mesh& mesh, std::string_view item) {
+  const std::size_t keys = mesh.motion_positions.size(), normal_keys = mesh.motion_corner_normals.size();
+  const std::size_t expected_normal_keys = mesh.corner_normals.empty() ? 0 : keys;
+  if (normal_keys != expected_normal_keys)
+    throw SceneError(std::string(item) + ".motion_corner_normals",
+                     "must have as many keys as motion_positions where there are corner_normals, else none (" +
+                         std::to_string(expected_normal_keys) + "), has " + std::to_string(normal_keys));
+  for (std::size_t key = 0; key < keys; ++key) {
+    check_key_length(item, "motion_positions", key, mesh.motion_positions[key].size(), mesh.positions.size());
+    check_finite(item, "motion_positions[" + std::to_string(key) + "]", mesh.motion_positions[key]);
+  }
+  for (std::size_t key = 0; key < normal_keys; ++key) {
+    check_key_length(item, "motion_corner_normals", key, mesh.motion_corner_normals[key].size(),
+                     mesh.corner_normals.size());
+    check_finite(item, "motion_corner_normals[" + std::to_string(key) + "]", mesh.motion_corner_normals[key]);
+  }
+}
+
 }  // namespace
 
 Bounds3f bounds(const Mesh& mesh) {
   Bounds3f result;
   for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t index : triangle) result.extend(mesh.positions[index]);
+    for (const std::uint32_t index : triangle)
+      for (std::size_t key = 0; key <= mesh.motion_intervals(); ++key) result.extend(mesh.positions_of_key(key)[index]);
   return result;
 }
 
@@ -77,10 +103,12 @@ void validate(const Mesh& mesh, std::string_view item) {
   check_finite(item, "positions", mesh.positions);
   check_finite(item, "corner_normals", mesh.corner_normals);
   check_finite(item, "uvs", mesh.uvs);
+  validate_motion(mesh, item);
 }
 
 Mesh remove_degenerate_triangles(Mesh mesh, std::string_view item, Report& report) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  if (mesh.is_deforming()) return mesh;
   std::vector<std::uint32_t> kept;
   kept.reserve(count);
   for (std::uint32_t triangle = 0; triangle < count; ++triangle)

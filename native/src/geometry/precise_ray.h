@@ -12,6 +12,7 @@ namespace basicrt {
 struct PreciseRay {
   Vec3d origin, direction;
   double t_min = 0, t_max = 0;
+  float time = 0;
 };
 
 // The direction is not normalised, so that t means the same in both spaces. Distances are neither negative nor larger
@@ -21,7 +22,8 @@ inline PreciseRay make_precise_ray(Vec3d origin, Vec3d direction, const Ray& ray
   return {.origin = origin,
           .direction = direction,
           .t_min = ray.t_min < 0 ? 0 : ray.t_min,
-          .t_max = ray.t_max > largest ? largest : ray.t_max};
+          .t_max = ray.t_max > largest ? largest : ray.t_max,
+          .time = ray.time};
 }
 inline PreciseRay transform_ray(const TransformD& world_to_object, const Ray& ray) {
   return make_precise_ray(world_to_object.point(Vec3d(ray.origin)), world_to_object.vector(Vec3d(ray.direction)), ray);

@@ -60,7 +60,7 @@ void set_uv_change(SurfaceDerivatives& derivatives) {
 
 void add_derivatives(SurfacePoint& point, const Shape& shape, const Placement& placement) {
   const auto on_triangle = [&](const Mesh& mesh) {
-    return derivatives_on_triangle(mesh, point.primitive, point.barycentrics);
+    return derivatives_on_triangle(mesh, point.primitive, point.barycentrics, point.time);
   };
   const auto on_sphere = [&](const Sphere& sphere) {
     return derivatives_on_sphere(sphere, placement.world_to_object.point(Vec3d(point.position)));

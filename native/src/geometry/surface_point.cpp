@@ -61,6 +61,7 @@ SurfacePoint make_point(const Sphere& sphere, const Placement& placement, const 
           .uv = local.uv,
           .barycentrics = local.uv,
           .t = static_cast<float>(local.t),
+          .time = ray.time,
           .instance = hit.instance,
           .primitive = Hit::none,
           .material_slot = 0,
@@ -68,11 +69,15 @@ SurfacePoint make_point(const Sphere& sphere, const Placement& placement, const 
           .derivatives = {}};
 }
 
-PointRequest make_request(const Mesh& mesh, const SurfaceHit& surface_hit) {
+// Where a triangle is that moves: its corners, then their normals.
+using MovedTriangle = float[6][3];
+
+// `moved` keeps what the request looks at of a mesh that deforms.
+PointRequest make_request(const Mesh& mesh, const SurfaceHit& surface_hit, MovedTriangle& moved) {
   const Hit& hit = *surface_hit.hit;
   const Placement& placement = *surface_hit.placement;
   const std::array<std::uint32_t, 3>& corners = mesh.triangles[hit.primitive];
-  return {
+  PointRequest request{
       .corners = {&mesh.positions[corners[0]].x, &mesh.positions[corners[1]].x, &mesh.positions[corners[2]].x},
       .corner_normals = mesh.corner_normals.empty() ? nullptr : &mesh.corner_normals[3 * std::size_t{hit.primitive}].x,
       .ray = &surface_hit.ray->origin.x,
@@ -81,9 +86,21 @@ PointRequest make_request(const Mesh& mesh, const SurfaceHit& surface_hit) {
       .t = hit.t,
       .u = hit.u,
       .v = hit.v};
+  if (!mesh.is_deforming()) return request;
+  const auto put = [&](std::size_t row, Vec3f v) {
+    for (std::size_t axis = 0; axis < 3; ++axis) moved[row][axis] = v[axis];
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    put(i, mesh.position_at(hit.primitive, static_cast<int>(i), surface_hit.ray->time));
+    request.corners[i] = moved[i];
+    if (!mesh.corner_normals.empty())
+      put(3 + i, mesh.corner_normal_at(3 * std::size_t{hit.primitive} + i, surface_hit.ray->time));
+  }
+  if (request.corner_normals != nullptr) request.corner_normals = moved[3];
+  return request;
 }
 
-void write_point(SurfacePoint& point, const Mesh& mesh, const Hit& hit, const PointResult& result) {
+void write_point(SurfacePoint& point, const Mesh& mesh, const Ray& ray, const Hit& hit, const PointResult& result) {
   const auto vector = [](const float (&numbers)[3]) { return Vec3f{numbers[0], numbers[1], numbers[2]}; };
   const float u = result.barycentrics[0], v = result.barycentrics[1];
   point.position = vector(result.position);
@@ -97,6 +114,7 @@ void write_point(SurfacePoint& point, const Mesh& mesh, const Hit& hit, const Po
     point.uv = corners[0] * (1 - u - v) + corners[1] * u + corners[2] * v;
   }
   point.t = result.t;
+  point.time = ray.time;
   point.instance = hit.instance;
   point.primitive = hit.primitive;
   point.material_slot = mesh.material_slots.empty() ? 0 : mesh.material_slots[hit.primitive];
@@ -109,16 +127,18 @@ struct Group {
   std::size_t count = 0;
   const SurfaceHit* hits[surface_hits_at_once];
   PointRequest requests[surface_hits_at_once];
+  MovedTriangle moved[surface_hits_at_once];
 
   void add(const Mesh& mesh, const SurfaceHit& hit) {
     hits[count] = &hit;
-    requests[count++] = make_request(mesh, hit);
+    requests[count] = make_request(mesh, hit, moved[count]);
+    ++count;
   }
   void solve(PointKind kind) const {
     PointResult results[surface_hits_at_once];
     chosen_point_kernel().solve(kind, requests, results, count);
     for (std::size_t i = 0; i < count; ++i)
-      write_point(*hits[i]->point, std::get<Mesh>(*hits[i]->shape), *hits[i]->hit, results[i]);
+      write_point(*hits[i]->point, std::get<Mesh>(*hits[i]->shape), *hits[i]->ray, *hits[i]->hit, results[i]);
   }
 };
 
@@ -146,11 +166,12 @@ void make_surface_points(std::span<const SurfaceHit> hits) {
 SurfacePoint make_surface_point(const Shape& shape, const Placement& placement, const Ray& ray, const Hit& hit) {
   const auto* mesh = std::get_if<Mesh>(&shape);
   if (mesh == nullptr) return make_point(std::get<Sphere>(shape), placement, ray, hit);
-  const PointRequest request = make_request(*mesh, {&shape, &placement, &ray, &hit, nullptr});
+  MovedTriangle moved;
+  const PointRequest request = make_request(*mesh, {&shape, &placement, &ray, &hit, nullptr}, moved);
   PointResult result;
   chosen_point_kernel().solve({placement.is_translation, !mesh->corner_normals.empty()}, &request, &result, 1);
   SurfacePoint point;
-  write_point(point, *mesh, hit, result);
+  write_point(point, *mesh, ray, hit, result);
   return point;
 }
 

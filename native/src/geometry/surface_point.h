@@ -32,6 +32,7 @@ struct SurfacePoint {
   Vec2f uv;
   Vec2f barycentrics;  // the shares of a triangle's second and third corner; a sphere's uv
   float t = 0;         // distance along the ray, solved in double precision
+  float time = 0;      // the ray's
   std::uint32_t instance = 0;
   std::uint32_t primitive = 0;  // the triangle; Hit::none on a sphere
   std::uint32_t material_slot = 0;
@@ -39,7 +40,7 @@ struct SurfacePoint {
   std::optional<SurfaceDerivatives> derivatives;  // once add_derivatives() was called
 };
 
-// The hit solved again from the vertices in double precision, but never outside the triangle that the tracer found: where
+// The hit solved again from the vertices at the ray's time (`placement` is of that time too) in double precision, but never outside the triangle that the tracer found: where
 // its rounding took the ray inside, the point is on the edge.
 [[nodiscard]] SurfacePoint make_surface_point(const Shape& shape, const Placement& placement, const Ray& ray,
                                               const Hit& hit);

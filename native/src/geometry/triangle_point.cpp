@@ -34,10 +34,10 @@ struct UvEdges {
 
 }  // namespace
 
-LocalDerivatives derivatives_on_triangle(const Mesh& mesh, std::uint32_t triangle, Vec2f barycentrics) {
+LocalDerivatives derivatives_on_triangle(const Mesh& mesh, std::uint32_t triangle, Vec2f barycentrics, float time) {
   const std::size_t first_corner = 3 * std::size_t{triangle};
   Corners positions;
-  for (int i = 0; i < 3; ++i) positions[i] = Vec3d(mesh.position(triangle, i));
+  for (int i = 0; i < 3; ++i) positions[i] = Vec3d(mesh.position_at(triangle, i, time));
 
   // Without texture coordinates, or where they are all on a line, the barycentrics parametrise the triangle.
   UvEdges edges({Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{0, 1}});
@@ -52,7 +52,7 @@ LocalDerivatives derivatives_on_triangle(const Mesh& mesh, std::uint32_t triangl
   if (mesh.corner_normals.empty()) return result;
 
   Corners normals;
-  for (std::size_t i = 0; i < 3; ++i) normals[i] = Vec3d(mesh.corner_normals[first_corner + i]);
+  for (std::size_t i = 0; i < 3; ++i) normals[i] = Vec3d(mesh.corner_normal_at(first_corner + i, time));
   const Derivatives normal_change = edges.derivatives(normals);
   const double u = barycentrics.x, v = barycentrics.y;
   result.normal = normals[0] * (1 - u - v) + normals[1] * u + normals[2] * v;

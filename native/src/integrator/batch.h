@@ -3,11 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "bvh/tracer.h"
-#include "film/film.h"
 
 namespace basicrt {
 
@@ -17,16 +15,15 @@ inline void find_hits(const Tracer& tracer, const std::vector<Ray>& rays, std::v
   tracer.intersect(rays, hits);
 }
 
-// Adds each connection's `radiance` to its `sample` unless something is in its shadow ray's way. `occluded` is room
-// for the tracer's answers.
-template <class Connection>
-void add_unoccluded(const Tracer& tracer, const std::vector<Ray>& shadow_rays,
-                    const std::vector<Connection>& connections, std::vector<std::uint8_t>& occluded,
-                    std::span<PixelSample> samples) {
+// Calls add(connection) for each one unless something is in its shadow ray's way. `occluded` is room for the tracer's
+// answers.
+template <class Connection, class Add>
+void for_each_unoccluded(const Tracer& tracer, const std::vector<Ray>& shadow_rays,
+                         const std::vector<Connection>& connections, std::vector<std::uint8_t>& occluded, Add&& add) {
   occluded.resize(shadow_rays.size());
   tracer.occluded(shadow_rays, occluded);
   for (std::size_t i = 0; i < connections.size(); ++i)
-    if (!occluded[i]) samples[connections[i].sample].radiance += connections[i].radiance;
+    if (!occluded[i]) add(connections[i]);
 }
 
 }  // namespace basicrt

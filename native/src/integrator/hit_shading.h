@@ -6,8 +6,10 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "bsdf/bsdf.h"
+#include "geometry/shadow_terminator.h"
 #include "geometry/surface_point.h"
 #include "math/next_float.h"
 #include "scene/prepare.h"
@@ -17,9 +19,12 @@ namespace basicrt {
 [[nodiscard]] inline SurfacePoint surface_point_at(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
   const PreparedScene::PreparedInstance& instance = scene.instances[hit.instance];
   const Shape& shape = scene.shapes[instance.shape];
-  SurfacePoint point = make_surface_point(shape, instance.placement, ray, hit);
-  if (instance.needs_derivatives) add_derivatives(point, shape, instance.placement);
-  return point;
+  const auto at = [&](const Placement& placement) {
+    SurfacePoint point = make_surface_point(shape, placement, ray, hit);
+    if (instance.needs_derivatives) add_derivatives(point, shape, placement);
+    return point;
+  };
+  return instance.motion.empty() ? at(instance.placement) : at(Placement(transform_at(instance.motion, ray.time)));
 }
 
 // The surface points of some of a batch's hits at once, few enough to stay in the cache until they are shaded.
@@ -27,17 +32,22 @@ class SurfacePoints {
  public:
   static constexpr std::size_t at_once = surface_hits_at_once;
 
+  SurfacePoints() { moved_.reserve(at_once); }
+
   // Before the first of a batch.
   void begin() { first_ = end_ = 0; }
   // Of the hits from `first` on, up to end(). Where a ray missed there is none.
   void find(const PreparedScene& scene, std::span<const Ray> rays, std::span<const Hit> hits, std::size_t first) {
     std::array<SurfaceHit, at_once> found;
     std::size_t count = 0;
+    moved_.clear();
     const std::size_t end = std::min(rays.size(), first + at_once);
     for (std::size_t i = first; i < end; ++i) {
       if (!hits[i].is_hit()) continue;
       const PreparedScene::PreparedInstance& instance = scene.instances[hits[i].instance];
-      found[count++] = {&scene.shapes[instance.shape], &instance.placement, &rays[i], &hits[i], &points_[i - first]};
+      const Placement* placement = &instance.placement;
+      if (!instance.motion.empty()) placement = &moved_.emplace_back(transform_at(instance.motion, rays[i].time));
+      found[count++] = {&scene.shapes[instance.shape], placement, &rays[i], &hits[i], &points_[i - first]};
     }
     make_surface_points(std::span(found).first(count));
     for (const SurfaceHit& hit : std::span(found).first(count))
@@ -52,6 +62,7 @@ class SurfacePoints {
  private:
   std::size_t first_ = 0, end_ = 0;
   std::array<SurfacePoint, at_once> points_;
+  std::vector<Placement> moved_;  // of what moves, at the rays' times
 };
 
 [[nodiscard]] inline SurfaceShading shade_at(const PreparedScene& scene, const SurfacePoint& point, Vec3f wo) {
@@ -61,7 +72,8 @@ class SurfacePoints {
 // Notes the passes of a camera ray's first hit.
 inline void record_first_hit(const PreparedScene& scene, const SurfacePoint& point, PixelSample& sample) {
   sample.has_hit = true;
-  sample.depth = scene.view.depth(point.position);
+  sample.depth = scene.moving_camera.is_moving() ? scene.moving_camera.at(point.time).depth(point.position)
+                                                 : scene.view.depth(point.position);
   sample.normal = point.is_backfacing ? -point.shading_normal : point.shading_normal;
 }
 
@@ -82,6 +94,26 @@ inline void set_start(Ray& ray, const SurfacePoint& point) {
 [[nodiscard]] inline Ray spawn_shadow_ray(const SurfacePoint& point, Vec3f direction, float distance, float time) {
   Ray ray = spawn_ray(point, direction, ray_shadow, time);
   ray.t_max = distance * (1 - 1e-4f);
+  return ray;
+}
+
+// The same as Blender's shadow terminator offset has it: on a smooth-shaded mesh the ray may start above the facet.
+[[nodiscard]] inline Ray spawn_shadow_ray(const PreparedScene& scene, const SurfacePoint& point, Vec3f direction,
+                                          float distance, float time) {
+  Ray ray = spawn_shadow_ray(point, direction, distance, time);
+  const PreparedScene::PreparedInstance& instance = scene.instances[point.instance];
+  if (instance.shadow_terminator_offset == 0) return ray;
+  const float share = smooth_share(point, direction, instance.shadow_terminator_offset);
+  if (share == 0) return ray;
+  const Mesh& mesh = std::get<Mesh>(scene.shapes[instance.shape]);
+  const Vec3f shift = shift_to_smooth_surface(mesh, instance.placement, point, direction) * share;
+  if (!(length_squared(shift) > 0)) return ray;
+  ray.origin = offset_origin(point, shift) + shift;
+  if (distance == infinity) return ray;
+  const Vec3f to_light = point.position + direction * distance - ray.origin;  // the same point of it
+  const float new_distance = length(to_light);
+  ray.direction = to_light * (1 / new_distance);
+  ray.t_max = new_distance * (1 - 1e-4f);
   return ray;
 }
 

@@ -36,7 +36,7 @@ void IntersectionTest::shade(std::span<PixelSample> samples, bool is_camera_ray)
   std::size_t kept = 0;
   points_.begin();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
-    if (i == points_.end()) points_.find(scene_, rays_, hits_, i);
+    if (i == points_.end()) find_points(i);
     if (!hits_[i].is_hit()) continue;
     Path& path = paths_[i];
     const Ray& ray = rays_[i];
@@ -48,7 +48,7 @@ void IntersectionTest::shade(std::span<PixelSample> samples, bool is_camera_ray)
     const Vec3f wo = -ray.direction;
     const SurfaceShading shading = shade_at(scene_, point, wo);
     if (!shading.bsdf.has_only_deltas()) {
-      gather_light(path, ray, point, shading.bsdf);
+      gather_light(path, ray, point, to_light_[i % SurfacePoints::at_once], shading.bsdf);
       continue;
     }
     const float choice = path.sampler.next_1d();
@@ -62,21 +62,31 @@ void IntersectionTest::shade(std::span<PixelSample> samples, bool is_camera_ray)
   rays_.resize(kept);
 }
 
+// The way to the light apart from all else: the roots and divisions of many points overlap.
+void IntersectionTest::find_points(std::size_t first) {
+  points_.find(scene_, rays_, hits_, first);
+  for (std::size_t i = first; i < points_.end(); ++i) {
+    if (!hits_[i].is_hit()) continue;
+    const Vec3f to_light = scene_.settings.point_light_position - points_[i].position;
+    const float distance = length(to_light), inverse_distance = 1 / distance;
+    to_light_[i - first] = {to_light * inverse_distance, distance, inverse_distance};
+  }
+}
+
 // radiance = f cos flux / (4 pi r^2), unless something is in the way.
-void IntersectionTest::gather_light(const Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf) {
-  const RenderSettings& settings = scene_.settings;
-  const Vec3f to_light = settings.point_light_position - point.position;
-  const float distance = length(to_light), inverse_distance = 1 / distance;
-  const Vec3f wi = to_light * inverse_distance;
-  const Color reflected = bsdf.eval(-ray.direction, wi).value;
+void IntersectionTest::gather_light(const Path& path, const Ray& ray, const SurfacePoint& point,
+                                    const ToLight& to_light, const Bsdf& bsdf) {
+  const Color reflected = bsdf.eval(-ray.direction, to_light.wi).value;
   if (is_black(reflected)) return;
-  const Color irradiance = settings.point_light_flux * (inv_pi / 4 * inverse_distance * inverse_distance);
-  append_result(shadow_rays_, [&] { return spawn_shadow_ray(point, wi, distance, ray.time); });
+  const Color irradiance =
+      scene_.settings.point_light_flux * (inv_pi / 4 * to_light.inverse_distance * to_light.inverse_distance);
+  append_result(shadow_rays_, [&] { return spawn_shadow_ray(point, to_light.wi, to_light.distance, ray.time); });
   shadow_tests_.push_back({path.sample, path.throughput * reflected * irradiance});
 }
 
 void IntersectionTest::connect(std::span<PixelSample> samples) {
-  add_unoccluded(scene_.tracer, shadow_rays_, shadow_tests_, occluded_, samples);
+  for_each_unoccluded(scene_.tracer, shadow_rays_, shadow_tests_, occluded_,
+                      [&](const ShadowTest& test) { samples[test.sample].radiance += test.radiance; });
 }
 
 }  // namespace basicrt

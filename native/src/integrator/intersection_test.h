@@ -2,6 +2,7 @@
 // The assignment's integrator: perfect refraction followed to a surface that is lit by one point light.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,11 @@ class IntersectionTest final : public Integrator {
     Sampler sampler;
     Color throughput{1.0f};
   };
+  // From a surface point.
+  struct ToLight {
+    Vec3f wi;
+    float distance, inverse_distance;
+  };
   struct ShadowTest {
     std::uint32_t sample;
     Color radiance;  // if nothing is in the way
@@ -32,13 +38,17 @@ class IntersectionTest final : public Integrator {
   void shade(std::span<PixelSample> samples, bool is_camera_ray);  // refracts it, or asks for its light
   void connect(std::span<PixelSample> samples);                    // tests the shadow rays
 
-  void gather_light(const Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf);
+  void find_points(std::size_t first);
+  void gather_light(const Path& path, const Ray& ray, const SurfacePoint& point, const ToLight& to_light,
+                    const Bsdf& bsdf);
 
   const PreparedScene& scene_;
   std::vector<Path> paths_;
   std::vector<Ray> rays_;  // the next one of each path
   std::vector<Hit> hits_;
-  SurfacePoints points_;  // of some of the hits at a time
+  // Of some of the hits at a time.
+  SurfacePoints points_;
+  std::array<ToLight, SurfacePoints::at_once> to_light_;
   std::vector<Ray> shadow_rays_;
   std::vector<ShadowTest> shadow_tests_;
   std::vector<std::uint8_t> occluded_;

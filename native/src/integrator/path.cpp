@@ -7,6 +7,7 @@
 #include "base/append_result.h"
 #include "integrator/batch.h"
 #include "integrator/hit_shading.h"
+#include "integrator/softening.h"
 
 namespace basicrt {
 namespace {
@@ -17,26 +18,15 @@ float power_heuristic(float pdf, float other_pdf) {
   return 1 / (1 + ratio * ratio);
 }
 
-std::uint32_t ray_kind(ScatterKind kind) {
-  switch (kind) {
-    case ScatterKind::diffuse:
-      return ray_diffuse;
-    case ScatterKind::glossy:
-      return ray_glossy;
-    case ScatterKind::transmission:
-      return ray_transmission;
-    case ScatterKind::transparent:
-      break;  // keeps the kind that it had
-  }
-  return 0;
-}
-
 Ray up_to(Ray ray, const SurfacePoint& point) {
   ray.t_max = point.t;
   return ray;
 }
 
 }  // namespace
+
+PathIntegrator::PathIntegrator(const PreparedScene& scene)
+    : scene_(scene), softens_caustics_(softens_caustics(scene.settings)) {}
 
 void PathIntegrator::render(const CameraPaths& paths, std::span<PixelSample> samples) {
   begin(paths, samples);
@@ -69,7 +59,8 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     PixelSample& sample = samples[path.sample];
     if (!hit.is_hit()) {
       gather_lamps(path, ray, sample);
-      gather_environment(path, sample);
+      gather_distant_lamps(path, ray, sample);
+      gather_environment(path, ray, sample);
       continue;
     }
 
@@ -77,54 +68,156 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     gather_lamps(path, up_to(ray, point), sample);
     if (path.is_camera_ray && !sample.has_hit) record_first_hit(scene_, point, sample);
 
-    const SurfaceShading shading = shade_at(scene_, point, -ray.direction);
+    SurfaceShading shading = shade_at(scene_, point, -ray.direction);
+    if (path.shows_film) cut_out(path, point, -ray.direction, shading, sample);
+    if (softens_caustics_) soften_caustics(scene_.settings, ray.kinds == ray_diffuse, path.least_pdf, shading.bsdf);
+    if (path.is_camera_ray && scene_.instances[point.instance].is_shadow_catcher) {
+      if (!pass_catcher(path, ray, hit, point, shading.bsdf, sample)) continue;
+      rays_[kept] = ray;
+      paths_[kept++] = path;
+      continue;
+    }
     gather_emission(path, ray, point, shading.emission, sample);
     if (shading.bsdf.is_empty()) continue;
-    if (!path.is_last) sample_lights(path, ray, point, shading.bsdf);
+    if (!path.is_last) sample_lights(path, ray, point, shading.bsdf, sample);
     if (!scatter(path, ray, hit, point, shading.bsdf)) continue;
     rays_[kept] = ray;
     paths_[kept++] = path;
   }
   paths_.resize(kept);
   rays_.resize(kept);
+  paths_.insert(paths_.end(), caught_paths_.begin(), caught_paths_.end());
+  rays_.insert(rays_.end(), caught_rays_.begin(), caught_rays_.end());
+  caught_paths_.clear();
+  caught_rays_.clear();
+}
+
+Color& PathIntegrator::sum_of(Destination destination, PixelSample& sample) {
+  switch (destination) {
+    case Destination::behind_catcher:
+      return sample.catcher.behind;
+    case Destination::catcher_lit:
+      return sample.catcher.lit;
+    case Destination::catcher_unlit:
+      return sample.catcher.unlit;
+    case Destination::picture:
+      break;
+  }
+  return sample.radiance;
+}
+
+void PathIntegrator::cut_hole(const Path& path, Color share, PixelSample& sample) {
+  const float hole = average(path.throughput * share);
+  if (path.destination == Destination::behind_catcher)
+    sample.catcher.hole += hole;
+  else
+    sample.alpha -= hole;
+}
+
+// Light that the path ran into after its last scattering: direct light is what it finds after the first, or none.
+void PathIntegrator::add_light(const Path& path, Color radiance, PixelSample& sample) const {
+  const RenderSettings& settings = scene_.settings;
+  sum_of(path.destination, sample) +=
+      clamp_light(radiance, path.bounces.total > 1 ? settings.clamp_indirect : settings.clamp_direct);
 }
 
 // Lamps do not block rays: each one between the ray's ends adds its light.
 void PathIntegrator::gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const {
-  scene_.lights.for_each_lamp_hit(ray, [&](const LightHit& hit) {
-    const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
-    sample.radiance += path.throughput * hit.radiance * weight;
-  });
+  scene_.lights.for_each_lamp_hit(ray, path.lit_side, [&](const LightHit& hit) { gather_lamp(path, hit, sample); });
 }
 
-void PathIntegrator::gather_environment(const Path& path, PixelSample& sample) const {
-  if (path.is_camera_ray && scene_.settings.is_film_transparent) {
-    sample.alpha = 1 - std::min(average(path.throughput), 1.0f);
+// Those are behind everything, where a camera's clipping doesn't reach.
+void PathIntegrator::gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample) const {
+  scene_.lights.for_each_distant_hit(ray, path.lit_side, [&](const LightHit& hit) { gather_lamp(path, hit, sample); });
+}
+
+void PathIntegrator::gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample) const {
+  const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
+  add_light(path, path.throughput * hit.radiance * weight, sample);
+}
+
+void PathIntegrator::gather_environment(const Path& path, const Ray& ray, PixelSample& sample) const {
+  if (path.shows_film && scene_.settings.is_film_transparent) {
+    cut_hole(path, Color(1.0f), sample);
     return;
   }
-  const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_environment());
-  sample.radiance += path.throughput * scene_.lights.environment().radiance * weight;
+  const Color radiance = scene_.lights.environment_radiance(ray.direction, path.is_camera_ray);
+  if (is_black(radiance)) return;
+  const float weight =
+      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_environment(ray.direction));
+  add_light(path, path.throughput * radiance * weight, sample);
 }
 
 void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
                                      PixelSample& sample) const {
   if (is_black(emission)) return;
   const float weight =
-      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, ray.origin));
-  sample.radiance += path.throughput * emission * weight;
+      path.is_specular ? 1
+                       : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, {ray.origin, path.lit_side}));
+  add_light(path, path.throughput * emission * weight, sample);
 }
 
-void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf) {
+// Holdouts are holes, whether or not the film is transparent elsewhere.
+void PathIntegrator::cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, SurfaceShading& shading,
+                             PixelSample& sample) const {
+  Color hole(shading.holdout);
+  if (scene_.instances[point.instance].is_holdout) {
+    hole = Color(1.0f) - transparency(scene_.material_of(point).material, scene_.textures, point, wo);
+    shading.emission = Color(0.0f);
+    shading.bsdf.remove_opaque();
+  }
+  cut_hole(path, hole, sample);
+}
+
+void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf,
+                                   PixelSample& sample) {
   if (bsdf.has_only_deltas() || scene_.lights.is_empty()) return;
   const float choice = path.sampler.next_1d();
-  const std::optional<LightSample> light = scene_.lights.sample(point.position, choice, path.sampler.next_2d());
-  if (!light) return;
-  const BsdfValue reflected = bsdf.eval(-ray.direction, light->wi);
+  const std::optional<LightSample> light =
+      scene_.lights.sample({point.position, bsdf.lit_side(-ray.direction)}, choice, path.sampler.next_2d(), ray.time);
+  if (!light || path.bounces.total > light->max_bounces) return;
+  const BsdfValue reflected = eval_towards(*light, point, -ray.direction, bsdf);
   const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, reflected.pdf);
-  const Color radiance = path.throughput * reflected.value * light->radiance * (weight / light->pdf);
-  if (is_black(radiance)) return;
-  append_result(shadow_rays_, [&] { return spawn_shadow_ray(point, light->wi, light->distance, ray.time); });
-  connections_.push_back({path.sample, radiance, path.bounces.transparent});
+  Color radiance = path.throughput * reflected.value * light->radiance * (weight / light->pdf);
+  if (is_black(radiance) || !survives_light_roulette(path, radiance)) return;
+  const RenderSettings& settings = scene_.settings;
+  const float most = path.bounces.total > 0 ? settings.clamp_indirect : settings.clamp_direct;
+  if (!light->casts_shadows) {
+    sum_of(path.destination, sample) += clamp_light(radiance, most);
+    return;
+  }
+  append_result(shadow_rays_, [&] { return spawn_shadow_ray(scene_, point, light->wi, light->distance, ray.time); });
+  if (path.destination == Destination::catcher_unlit) shadow_rays_.back().kinds = ray_catcher;
+  connections_.push_back({path.sample, radiance, path.bounces.transparent, most, path.destination});
+}
+
+// What the surface scatters of the light, of the kinds that the lamp lights.
+BsdfValue PathIntegrator::eval_towards(const LightSample& light, const SurfacePoint& point, Vec3f wo,
+                                       const Bsdf& bsdf) const {
+  constexpr std::uint32_t surface_kinds = ray_diffuse | ray_glossy | ray_transmission;
+  if ((light.kinds & surface_kinds) != surface_kinds) return bsdf.eval_kinds(wo, light.wi, light.kinds);
+  const bool is_smoothed = scene_.instances[point.instance].shadow_terminator_offset > 0;
+  return is_smoothed ? bsdf.eval_smooth(wo, light.wi) : bsdf.eval(wo, light.wi);
+}
+
+// Two paths leave a shadow catcher, with the same random numbers: one among all objects, one among catchers alone. The
+// path itself goes on behind it. False where that may not.
+bool PathIntegrator::pass_catcher(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf,
+                                  PixelSample& sample) {
+  for (const Destination destination : {Destination::catcher_lit, Destination::catcher_unlit}) {
+    Path caught = path;
+    Ray caught_ray = ray;
+    caught.destination = destination;
+    caught.shows_film = caught.is_camera_ray = false;
+    sample_lights(caught, ray, point, bsdf, sample);
+    if (!scatter(caught, caught_ray, hit, point, bsdf)) continue;
+    caught_paths_.push_back(caught);
+    caught_rays_.push_back(caught_ray);
+  }
+  path.destination = Destination::behind_catcher;
+  if (!count_bounce(path, ScatterKind::transparent)) return false;
+  continue_behind(ray, hit, point);
+  return true;
 }
 
 // Sends the path on in a sampled direction. False where it ends.
@@ -139,10 +232,16 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
     continue_behind(ray, hit, point);
     return true;
   }
-  ray = spawn_ray(point, scattered->wi, ray_kind(scattered->kind), ray.time);
+  path.lit_side = bsdf.lit_side(-ray.direction);
+  const bool is_unlit = path.destination == Destination::catcher_unlit;
+  ray = spawn_ray(point, scattered->wi, is_unlit ? std::uint32_t{ray_catcher} : ray_kind(scattered->kind), ray.time);
   path.bsdf_pdf = scattered->pdf;
   path.is_specular = scattered->is_delta;
   path.is_camera_ray = false;
+  path.shows_film = path.shows_film && scattered->kind == ScatterKind::transmission &&
+                    scene_.settings.is_glass_transparent &&
+                    bsdf.transmission_alpha() <= scene_.settings.transparent_glass_roughness;
+  if (!scattered->is_delta) path.least_pdf = std::min(path.least_pdf, scattered->pdf);
   return survives_roulette(path);
 }
 
@@ -168,7 +267,7 @@ bool PathIntegrator::count_bounce(Path& path, ScatterKind kind) const {
 
 // Unbiased: what survives with probability p counts 1/p.
 bool PathIntegrator::survives_roulette(Path& path) const {
-  constexpr int free_bounces = 3;  // early bounces carry most of the light
+  constexpr int free_bounces = 2;  // early bounces carry most of the light
   if (path.bounces.total <= free_bounces) return true;
   const float importance = max_component(path.throughput);
   if (importance >= scene_.settings.roulette_threshold) return true;
@@ -178,9 +277,21 @@ bool PathIntegrator::survives_roulette(Path& path) const {
   return true;
 }
 
+// Unbiased in the same way. Shadow rays cost most of all: few are spent on what adds next to nothing.
+bool PathIntegrator::survives_light_roulette(Path& path, Color& radiance) const {
+  const float threshold = scene_.settings.light_threshold, importance = max_component(radiance);
+  if (importance >= threshold) return true;
+  const float survival = importance / threshold;
+  if (path.sampler.next_1d() >= survival) return false;
+  radiance *= 1 / survival;
+  return true;
+}
+
 void PathIntegrator::connect(std::span<PixelSample> samples) {
   if (scene_.has_transparency) return connect_through_transparency(samples);
-  add_unoccluded(scene_.tracer, shadow_rays_, connections_, occluded_, samples);
+  for_each_unoccluded(scene_.tracer, shadow_rays_, connections_, occluded_, [&](const Connection& connection) {
+    sum_of(connection.destination, samples[connection.sample]) += clamp_light(connection.radiance, connection.limit);
+  });
 }
 
 // Advances all shadow rays together from surface to surface, dimmed by each, until they arrive or are black.
@@ -193,7 +304,8 @@ void PathIntegrator::connect_through_transparency(std::span<PixelSample> samples
       Ray ray = shadow_rays_[i];
       Connection connection = connections_[i];
       if (!hits_[i].is_hit()) {
-        samples[connection.sample].radiance += connection.radiance;
+        sum_of(connection.destination, samples[connection.sample]) +=
+            clamp_light(connection.radiance, connection.limit);
         continue;
       }
       if (++connection.transparent_bounces > scene_.settings.transparent_bounces) continue;

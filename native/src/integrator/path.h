@@ -13,10 +13,13 @@ namespace basicrt {
 
 class PathIntegrator final : public Integrator {
  public:
-  explicit PathIntegrator(const PreparedScene& scene) : scene_(scene) {}
+  explicit PathIntegrator(const PreparedScene& scene);
   void render(const CameraPaths& paths, std::span<PixelSample> samples) override;
 
  private:
+  // Where a path's light goes: into the picture; where the path is one that leaves a shadow catcher, into one of the two
+  // sums that are compared; where it came through one, into what is darkened by that.
+  enum class Destination : std::uint8_t { picture, behind_catcher, catcher_lit, catcher_unlit };
   // Scatterings so far, by kind.
   struct Bounces {
     int total = 0, diffuse = 0, glossy = 0, transmission = 0, transparent = 0;
@@ -26,16 +29,22 @@ class PathIntegrator final : public Integrator {
     Sampler sampler;
     Color throughput{1.0f};
     Bounces bounces = {};
+    Vec3f lit_side = {};      // of the last scattering, as light was chosen for it: see LitPoint
     float bsdf_pdf = 0;       // of the last scattering's direction, over solid angle
     bool is_specular = true;  // no light sample could have found this ray (a camera ray, or after a delta lobe)
     bool is_last = false;     // only what the next surface emits still counts
     bool is_camera_ray = true;
+    Destination destination = Destination::picture;
+    bool shows_film = true;      // holes that it meets are holes in the picture
+    float least_pdf = infinity;  // of all scatterings' densities
   };
   // A light sample that is worth testing for shadow.
   struct Connection {
     std::uint32_t sample;
     Color radiance;           // if nothing is in the way
     int transparent_bounces;  // before it
+    float limit;              // clamps the radiance, as in clamp_light()
+    Destination destination;
   };
 
   void begin(const CameraPaths& paths, std::span<PixelSample> samples);
@@ -44,19 +53,34 @@ class PathIntegrator final : public Integrator {
   void connect(std::span<PixelSample> samples);  // tests the light samples for shadow
 
   // `ray` is the one that the path came by, up to the surface.
+  [[nodiscard]] static Color& sum_of(Destination destination, PixelSample& sample);
+  static void cut_hole(const Path& path, Color share, PixelSample& sample);
+  void add_light(const Path& path, Color radiance, PixelSample& sample) const;
   void gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const;
-  void gather_environment(const Path& path, PixelSample& sample) const;
+  void gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample) const;
+  void gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample) const;
+  void gather_environment(const Path& path, const Ray& ray, PixelSample& sample) const;
   void gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
                        PixelSample& sample) const;
-  void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf);
+  void cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, SurfaceShading& shading,
+               PixelSample& sample) const;
+  void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
+  [[nodiscard]] BsdfValue eval_towards(const LightSample& light, const SurfacePoint& point, Vec3f wo,
+                                       const Bsdf& bsdf) const;
+  [[nodiscard]] bool pass_catcher(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf,
+                                  PixelSample& sample);
   [[nodiscard]] bool scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const;
   [[nodiscard]] bool count_bounce(Path& path, ScatterKind kind) const;
   [[nodiscard]] bool survives_roulette(Path& path) const;
+  [[nodiscard]] bool survives_light_roulette(Path& path, Color& radiance) const;
   void connect_through_transparency(std::span<PixelSample> samples);
 
   const PreparedScene& scene_;
+  bool softens_caustics_;
   std::vector<Path> paths_;
-  std::vector<Ray> rays_;  // the next one of each path
+  std::vector<Ray> rays_;           // the next one of each path
+  std::vector<Path> caught_paths_;  // those that leave shadow catchers
+  std::vector<Ray> caught_rays_;
   std::vector<Hit> hits_;
   SurfacePoints points_;  // of some of the hits at a time
   std::vector<Ray> shadow_rays_;

@@ -104,7 +104,7 @@ struct WriteValue {
   }
 };
 
-// "type", then every field but those that are infinite, as their defaults are.
+// "type", then every field but those that are infinite or empty, as their defaults are.
 template <Described Struct, class Writer = WriteValue>
 [[nodiscard]] Json write_fields(const Struct& object, Writer&& write_value = {}) {
   Json json = Json::object();

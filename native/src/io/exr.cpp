@@ -64,7 +64,8 @@ void write_exr(const std::filesystem::path& path, const Film& film,
     if (film.layout().has(info.pass)) append_planes(planes, film, info);
 
   Imf::Header header(film.width(), film.height());
-  header.compression() = Imf::ZIP_COMPRESSION;
+  // Noise hardly gets any smaller: ZIP takes four times as long for a fifth less.
+  header.compression() = Imf::RLE_COMPRESSION;
   for (const Plane& plane : planes) header.channels().insert(plane.name, Imf::Channel(Imf::FLOAT));
   for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
 
@@ -98,10 +99,12 @@ Image read_exr(const std::filesystem::path& path) {
     file.readPixels(window.min.y, window.max.y);
 
     image.channels = static_cast<int>(planes.size());
+    std::vector<float> pixels;
     for (int y = image.height - 1; y >= 0; --y)
       for (int x = 0; x < image.width; ++x)
         for (const std::vector<float>& plane : planes)
-          image.pixels.push_back(plane[static_cast<std::size_t>(y) * image.width + x]);
+          pixels.push_back(plane[static_cast<std::size_t>(y) * image.width + x]);
+    image.pixels = std::move(pixels);
     return image;
   } catch (const SceneError&) {
     throw;

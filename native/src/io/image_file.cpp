@@ -25,11 +25,11 @@ using StbPixels = std::unique_ptr<Sample, StbDeleter>;
 template <class Sample, class ToLinear>
 void copy_pixels(Image& image, const Sample* samples, ToLinear&& to_linear) {
   const std::size_t row = static_cast<std::size_t>(image.width) * image.channels;
-  image.pixels.resize(row * image.height);
+  std::vector<float> linear(row * image.height);
   for (int y = 0; y < image.height; ++y)
     for (std::size_t i = 0; i < row; ++i)
-      image.pixels[(image.height - 1 - y) * row + i] =
-          to_linear(samples[y * row + i], static_cast<int>(i % image.channels));
+      linear[(image.height - 1 - y) * row + i] = to_linear(samples[y * row + i], static_cast<int>(i % image.channels));
+  image.pixels = std::move(linear);
 }
 
 // Alpha, the last of two or four channels, is not encoded.

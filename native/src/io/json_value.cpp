@@ -160,4 +160,10 @@ void read_numbers(const JsonValue& value, std::vector<std::uint32_t>& out) {
   });
 }
 
+void read(const JsonValue& value, std::vector<Transform>& out) {
+  value.expect_array();
+  out.clear();
+  for (std::size_t i = 0; i < value.size(); ++i) read(value.item(i), out.emplace_back());
+}
+
 }  // namespace basicrt

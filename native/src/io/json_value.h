@@ -72,6 +72,9 @@ void read(const JsonValue& value, Enum& out) {
 void read_numbers(const JsonValue& value, std::vector<float>& out);
 void read_numbers(const JsonValue& value, std::vector<std::uint32_t>& out);
 
+inline void read(const JsonValue& value, std::vector<float>& out) { read_numbers(value, out); }
+void read(const JsonValue& value, std::vector<Transform>& out);
+
 // Reads the member `key` where there is one.
 template <class T>
 void read_optional(const JsonValue& object, std::string_view key, T& out) {

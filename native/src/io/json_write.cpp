@@ -29,4 +29,12 @@ Json write(const Transform& value) {
   return json;
 }
 
+Json write(const std::vector<float>& values) { return values.empty() ? Json(nullptr) : write_array(values); }
+Json write(const std::vector<Transform>& values) {
+  if (values.empty()) return nullptr;
+  Json json = Json::array();
+  for (const Transform& value : values) json.push_back(write(value));
+  return json;
+}
+
 }  // namespace basicrt

@@ -17,6 +17,9 @@ namespace basicrt {
 [[nodiscard]] Json write(Vec2f value);
 [[nodiscard]] Json write(Vec3f value);
 [[nodiscard]] Json write(const Transform& value);  // 16 numbers, row by row
+// Null for none.
+[[nodiscard]] Json write(const std::vector<float>& values);
+[[nodiscard]] Json write(const std::vector<Transform>& values);
 
 template <class T>
   requires std::is_integral_v<T>
@@ -31,10 +34,11 @@ template <class Enum>
 }
 
 // One flat array.
-template <class T>
-[[nodiscard]] Json write_array(const std::vector<T>& values) {
+template <class Array>
+[[nodiscard]] Json write_array(const Array& values) {
   Json json = Json::array();
-  for (const T& value : values) {
+  for (const auto& value : values) {
+    using T = std::remove_cvref_t<decltype(value)>;
     if constexpr (std::is_scalar_v<T>)
       json.push_back(write(value));
     else if constexpr (requires { value.size(); })

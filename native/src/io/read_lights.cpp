@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lamps and the environment.
 #include <array>
+#include <cmath>
 #include <variant>
 
-#include "base/overloaded.h"
 #include "io/described_json.h"
 #include "io/scene_reader.h"
 
 namespace basicrt {
 namespace {
 
-Color average_color(const Image& image) {
-  Vec3d sum(0.0);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const float* pixel = image.pixel(x, y);
-      sum += image.channels < 3 ? Vec3d(pixel[0]) : Vec3d(pixel[0], pixel[1], pixel[2]);
-    }
-  }
-  return Color(sum * (1.0 / (double(image.width) * image.height)));
+EnvironmentLayer read_layer(SceneReader& reader, const JsonValue& json) {
+  EnvironmentLayer layer;
+  json.check_keys(known_keys<EnvironmentLayer>({"image"}));
+  read_fields(json, layer);
+  if (const auto image = json.find("image")) layer.image = read_image(reader, *image);
+  return layer;
 }
 
-Color average_color(const Texture& texture) {
-  return std::visit(Overloaded{[](const ConstantTexture& constant) { return constant.color; },
-                               [](const CheckerboardTexture& board) { return 0.5f * (board.color0 + board.color1); },
-                               [](const ImageTexture& image) { return average_color(image.image); }},
-                    texture);
+// A number for all channels, or one for each.
+Color read_scale(const JsonValue& map) {
+  Color scale(1.0f);
+  const auto value = map.find("scale");
+  if (!value) return scale;
+  if (value->json().is_number()) {
+    float number = 0;
+    read(*value, number);
+    return Color(number);
+  }
+  read(*value, scale);
+  return scale;
 }
 
 }  // namespace
@@ -35,33 +39,47 @@ void read_lights(SceneReader& reader, const JsonValue& lights) {
   for (std::size_t i = 0; i < lights.size(); ++i) reader.scene.lights.append(read_plain_variant<Light>(lights.item(i)));
 }
 
-void read_environment(SceneReader& reader, const JsonValue& environment) {
-  environment.check_keys(known_keys<Environment>());
-  read_fields(environment, reader.scene.environment);
+void read_environment(SceneReader& reader, const JsonValue& json) {
+  Environment& environment = reader.scene.environment;
+  json.check_keys(known_keys<Environment>({"layers"}));
+  read_fields(json, environment);
+  const auto layers = json.find("layers");
+  if (!layers) return;
+  layers->expect_array();
+  environment.layers.clear();
+  for (std::size_t i = 0; i < layers->size(); ++i) environment.layers.push_back(read_layer(reader, layers->item(i)));
 }
 
-// The assignment's environment. Only constant ones can be rendered yet.
+// The assignment's environment: its y axis points up and its image's middle is seen along -z. A checkerboard has no
+// place on the sky, and is replaced by its average.
 void read_environment_map(SceneReader& reader, const JsonValue& map) {
   map.check_keys(std::array<std::string_view, 3>{"texture_name", "scale", "transform"});
   const JsonValue name = map.require("texture_name");
   const Texture& texture = reader.scene.textures[reader.textures.resolve(name)];
-  if (!std::holds_alternative<ConstantTexture>(texture))
-    name.warn(reader.report, "an environment that varies can't be rendered yet: its average is used");
+  const Color scale = read_scale(map);
+  Transform to_world;
+  read_optional(map, "transform", to_world);
 
-  Color scale(1.0f);
-  if (const auto value = map.find("scale")) {
-    if (value->json().is_number()) {
-      float number = 0;
-      read(*value, number);
-      scale = Color(number);
-    } else {
-      read(*value, scale);
-    }
+  Environment& environment = reader.scene.environment;
+  if (const auto* image = std::get_if<ImageTexture>(&texture)) {
+    if (std::abs(to_world.determinant()) == 0) map.require("transform").fail("is singular: it has no inverse");
+    // To x ahead and z up.
+    const Transform from_assignment({{{0, 0, -1, 0}, {-1, 0, 0, 0}, {0, 1, 0, 0}}});
+    for (auto& row : to_world.rows) row[3] = 0;  // a sky has no place
+    environment.layers = {{.radiance = scale,
+                           .image = image->image,
+                           .interpolation = image->interpolation,
+                           .to_image = from_assignment * inverse(to_world)}};
+    validate_fields(environment.layers[0], map.path());
+    return;
   }
-  Transform ignored;  // turns what is the same in every direction
-  read_optional(map, "transform", ignored);
-  reader.scene.environment.radiance = scale * average_color(texture);
-  validate_fields(reader.scene.environment, map.path());
+  if (const auto* board = std::get_if<CheckerboardTexture>(&texture)) {
+    name.warn(reader.report, "only an image can surround the scene: the checkerboard's average is used");
+    environment.radiance = scale * 0.5f * (board->color0 + board->color1);
+  } else {
+    environment.radiance = scale * std::get<ConstantTexture>(texture).color;
+  }
+  validate_fields(environment, map.path());
 }
 
 }  // namespace basicrt

@@ -45,6 +45,8 @@ class MaterialReader {
       read_fields(object, shader, [&]<class Value>(const JsonValue& value, Value& out) {
         if constexpr (std::same_as<Value, ColorInput>)
           read_color(value, out);
+        else if constexpr (std::same_as<Value, ShareInput>)
+          read_share(value, out);
         else if constexpr (std::same_as<Value, NodeIndex>)
           read_input(value, out);
         else
@@ -60,6 +62,19 @@ class MaterialReader {
       out.texture = reader_.textures.resolve(value);
     else
       read(value, out.constant);
+  }
+
+  // A number, a texture's name, or {"texture": name, "alpha": true}.
+  void read_share(const JsonValue& value, ShareInput& out) const {
+    if (value.json().is_string()) {
+      out.texture = reader_.textures.resolve(value);
+    } else if (value.json().is_object()) {
+      value.check_keys(std::array<std::string_view, 2>{"texture", "alpha"});
+      out.texture = reader_.textures.resolve(value.require("texture"));
+      read_optional(value, "alpha", out.is_alpha);
+    } else {
+      read(value, out.constant);
+    }
   }
 
   // The assignment's key for the texture of a shader's only colour.

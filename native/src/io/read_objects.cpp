@@ -11,8 +11,10 @@ namespace basicrt {
 namespace {
 
 // "shape", then what every object may have.
-constexpr std::array<std::string_view, 8> shape_object_keys = {"shape",     "name",      "material_name", "materials",
-                                                               "transform", "translate", "light",         "visibility"};
+constexpr std::array<std::string_view, 12> shape_object_keys = {
+    "shape",      "name",      "material_name",     "materials",
+    "transform",  "translate", "motion_transforms", "light",
+    "visibility", "holdout",   "shadow_catcher",    "shadow_terminator_offset"};
 constexpr auto object_keys = std::span(shape_object_keys).subspan(1);
 
 Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
@@ -22,14 +24,17 @@ Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
   return reader.shapes.resolve(*name);
 }
 
-// p' = transform p + translate
-Transform read_placement(const JsonValue& object) {
-  Transform transform;
-  read_optional(object, "transform", transform);
+// p' = transform p + translate, at each time.
+void read_placement(const JsonValue& object, Instance& instance) {
+  read_optional(object, "transform", instance.object_to_world);
+  read_optional(object, "motion_transforms", instance.motion_transforms);
   Vec3f translate;
   read_optional(object, "translate", translate);
-  for (std::size_t axis = 0; axis < 3; ++axis) transform.rows[axis][3] += translate[axis];
-  return transform;
+  const auto move = [&](Transform& transform) {
+    for (std::size_t axis = 0; axis < 3; ++axis) transform.rows[axis][3] += translate[axis];
+  };
+  move(instance.object_to_world);
+  for (Transform& transform : instance.motion_transforms) move(transform);
 }
 
 std::vector<Id<Material>> read_material_slots(const SceneReader& reader, const JsonValue& object) {
@@ -73,7 +78,9 @@ void read_area_light(SceneReader& reader, const JsonValue& light, std::vector<Id
   light.check_keys(std::array<std::string_view, 2>{"type", "radiance"});
   (void)read_choice(light.require("type"), std::array<std::string_view, 1>{"area"}, "light");
   EmissionShader emission{.is_two_sided = false};
-  read_field(light.require("radiance"), emission, &EmissionShader::radiance);
+  const JsonValue radiance = light.require("radiance");
+  read(radiance, emission.radiance.constant);
+  validate_field(emission.radiance, at_least(0), radiance.path(), "");
   if (slots.empty()) slots.emplace_back();
   for (Id<Material>& slot : slots) slot = append_emissive(reader, slot, emission);
 }
@@ -82,9 +89,12 @@ void read_object(SceneReader& reader, const JsonValue& object) {
   Instance instance;
   instance.shape = read_object_shape(reader, object);
   read_optional(object, "name", instance.name);
-  instance.object_to_world = read_placement(object);
+  read_placement(object, instance);
   instance.materials = read_material_slots(reader, object);
   if (const auto visibility = object.find("visibility")) instance.visibility = read_visibility(*visibility);
+  read_optional(object, "holdout", instance.is_holdout);
+  read_optional(object, "shadow_catcher", instance.is_shadow_catcher);
+  read_optional(object, "shadow_terminator_offset", instance.shadow_terminator_offset);
   if (const auto light = object.find("light")) read_area_light(reader, *light, instance.materials);
   if (is_empty(reader.scene.shapes[instance.shape]))
     object.warn(reader.report, "skipped: the mesh has no triangles");

@@ -12,15 +12,13 @@ namespace {
 
 // A flat array of numbers, as many as `Element` has for each.
 template <class Element, std::size_t count>
-std::vector<Element> read_elements(const JsonValue& object, std::string_view key) {
+std::vector<Element> read_elements(const JsonValue& json) {
   using Number = std::conditional_t<std::is_same_v<Element, std::array<std::uint32_t, 3>>, std::uint32_t, float>;
   std::vector<Element> elements;
-  const auto json = object.find(key);
-  if (!json) return elements;
   std::vector<Number> numbers;
-  read_numbers(*json, numbers);
+  read_numbers(json, numbers);
   if (numbers.size() % count != 0)
-    json->fail("must have a multiple of " + std::to_string(count) + " numbers, has " + std::to_string(numbers.size()));
+    json.fail("must have a multiple of " + std::to_string(count) + " numbers, has " + std::to_string(numbers.size()));
   elements.reserve(numbers.size() / count);
   for (std::size_t i = 0; i < numbers.size(); i += count) {
     if constexpr (count == 2)
@@ -31,6 +29,25 @@ std::vector<Element> read_elements(const JsonValue& object, std::string_view key
   return elements;
 }
 
+template <class Element, std::size_t count>
+std::vector<Element> read_elements(const JsonValue& object, std::string_view key) {
+  const auto json = object.find(key);
+  return json ? read_elements<Element, count>(*json) : std::vector<Element>();
+}
+
+// An array of such arrays, one for each further time.
+std::vector<std::vector<Vec3f>> read_keys(const JsonValue& object, std::string_view key) {
+  std::vector<std::vector<Vec3f>> keys;
+  const auto json = object.find(key);
+  if (!json) return keys;
+  json->expect_array();
+  for (std::size_t i = 0; i < json->size(); ++i) keys.push_back(read_elements<Vec3f, 3>(json->item(i)));
+  return keys;
+}
+
+constexpr std::array<std::string_view, 7> inline_mesh_keys = {
+    "positions", "triangles", "corner_normals", "uvs", "material_slots", "motion_positions", "motion_corner_normals"};
+
 Mesh read_inline_mesh(const JsonValue& object) {
   (void)object.require("positions");
   (void)object.require("triangles");
@@ -38,7 +55,9 @@ Mesh read_inline_mesh(const JsonValue& object) {
             .triangles = read_elements<std::array<std::uint32_t, 3>, 3>(object, "triangles"),
             .corner_normals = read_elements<Vec3f, 3>(object, "corner_normals"),
             .uvs = read_elements<Vec2f, 2>(object, "uvs"),
-            .material_slots = {}};
+            .material_slots = {},
+            .motion_positions = read_keys(object, "motion_positions"),
+            .motion_corner_normals = read_keys(object, "motion_corner_normals")};
   if (const auto slots = object.find("material_slots")) read_numbers(*slots, mesh.material_slots);
   validate(mesh, object.path());
   return mesh;
@@ -55,7 +74,7 @@ Id<Shape> read_obj_shape(SceneReader& reader, const JsonValue& path_json) {
 
 Id<Shape> read_mesh_shape(SceneReader& reader, const JsonValue& object) {
   if (const auto path = object.find("path")) {
-    for (const char* key : {"positions", "triangles", "corner_normals", "uvs", "material_slots"})
+    for (const std::string_view key : inline_mesh_keys)
       if (object.find(key)) path->fail("give this or \"" + std::string(key) + "\", not both");
     return read_obj_shape(reader, *path);
   }
@@ -68,8 +87,11 @@ Id<Shape> read_sphere_shape(SceneReader& reader, const JsonValue& object) {
   return reader.scene.shapes.append(sphere);
 }
 
-const std::vector<std::string_view> mesh_keys = {"type",           "path", "positions",     "triangles",
-                                                 "corner_normals", "uvs",  "material_slots"};
+std::vector<std::string_view> all_mesh_keys() {
+  std::vector<std::string_view> keys = {"type", "path"};
+  keys.insert(keys.end(), inline_mesh_keys.begin(), inline_mesh_keys.end());
+  return keys;
+}
 
 struct ShapeKind {
   std::string_view name;
@@ -77,7 +99,7 @@ struct ShapeKind {
   Id<Shape> (*read)(SceneReader&, const JsonValue&);
 };
 
-const std::array shape_kinds = {ShapeKind{"mesh", mesh_keys, read_mesh_shape},
+const std::array shape_kinds = {ShapeKind{"mesh", all_mesh_keys(), read_mesh_shape},
                                 ShapeKind{Sphere::kind, known_keys<Sphere>(), read_sphere_shape}};
 
 }  // namespace

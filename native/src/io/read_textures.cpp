@@ -19,20 +19,6 @@ void read_generator(const JsonValue& texture, CheckerboardTexture& out) {
   read_optional(*generator, "delta", out.delta);
 }
 
-Image read_inline_image(const JsonValue& texture) {
-  Image image;
-  image.width = read_required<int>(texture, "width");
-  image.height = read_required<int>(texture, "height");
-  image.channels = read_required<int>(texture, "channels");
-  const JsonValue pixels = texture.require("pixels");
-  read_numbers(pixels, image.pixels);
-  if (image.width < 1 || image.height < 1 || image.channels < 1 || image.channels > 4)
-    texture.fail("width and height must be at least 1, channels in [1, 4]");
-  const double expected = double(image.width) * image.height * image.channels;
-  if (double(image.pixels.size()) != expected) pixels.fail_type("an array of width x height x channels numbers");
-  return image;
-}
-
 struct TextureKindReader {
   SceneReader& reader;
 
@@ -46,9 +32,18 @@ struct TextureKindReader {
     read_generator(texture, out);
   }
   void operator()(const JsonValue& texture, ImageTexture& out) const {
-    texture.check_keys(known_keys<ImageTexture>({"path", "width", "height", "channels", "pixels"}));
-    const auto path = texture.find("path");
-    out.image = path ? reader.read_image(reader.resolve_path(*path)) : read_inline_image(texture);
+    std::vector<std::string_view> keys = known_keys<ImageTexture>({"image"});
+    keys.insert(keys.end(), image_keys.begin(), image_keys.end());
+    texture.check_keys(keys);
+    read_fields(texture, out);
+    const auto image = texture.find("image");
+    if (!image) {
+      out.image = read_image_value(reader, texture);
+      return;
+    }
+    for (const std::string_view key : image_keys)
+      if (const auto other = texture.find(key)) other->fail("give this or \"image\", not both");
+    out.image = read_image(reader, *image);
   }
 };
 

@@ -18,12 +18,19 @@ struct RootKey {
 
 // In the order in which they are read: names before what refers to them, the picture's size before the camera.
 constexpr std::array root_keys = {
-    RootKey{"integrator", read_integrator},   RootKey{"film", read_film},
-    RootKey{"settings", read_settings},       RootKey{"camera", read_camera},
-    RootKey{"textures", read_textures},       RootKey{"materials", read_materials},
-    RootKey{"shapes", read_shapes},           RootKey{"objects", read_objects},
-    RootKey{"lights", read_lights},           RootKey{"environment_map", read_environment_map},
-    RootKey{"environment", read_environment}, RootKey{"$schema", [](SceneReader&, const JsonValue&) {}},
+    RootKey{"integrator", read_integrator},
+    RootKey{"film", read_film},
+    RootKey{"settings", read_settings},
+    RootKey{"camera", read_camera},
+    RootKey{"images", read_images},
+    RootKey{"textures", read_textures},
+    RootKey{"materials", read_materials},
+    RootKey{"shapes", read_shapes},
+    RootKey{"objects", read_objects},
+    RootKey{"lights", read_lights},
+    RootKey{"environment_map", read_environment_map},
+    RootKey{"environment", read_environment},
+    RootKey{"$schema", [](SceneReader&, const JsonValue&) {}},
 };
 
 Scene read_scene(const Json& json, SceneReader reader) {

@@ -2,6 +2,7 @@
 // What the readers of a scene file's parts share: the scene that is being made, and where its names lead.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -44,6 +45,8 @@ struct SceneReader {
   ImageReader read_image;
 
   Scene scene{};
+  Table<Image> image_table{};  // which textures and the environment share
+  Names<Image> images{"image"};
   Names<Texture> textures{"texture"};
   Names<Material> materials{"material"};
   Names<Shape> shapes{"shape"};
@@ -51,6 +54,14 @@ struct SceneReader {
 
   [[nodiscard]] std::filesystem::path resolve_path(const JsonValue& value) const;
 };
+
+// The keys of an image where it is given.
+inline constexpr std::array<std::string_view, 7> image_keys = {"path",   "width", "height",  "channels",
+                                                               "pixels", "bytes", "encoding"};
+// From an object with these keys, and perhaps others.
+[[nodiscard]] Image read_image_value(SceneReader& reader, const JsonValue& json);
+// From such an object and no other keys, or by its name.
+[[nodiscard]] Image read_image(SceneReader& reader, const JsonValue& value);
 
 // Appends copies of the nodes of `other`; returns where its surface is now.
 NodeIndex append_nodes(Material& material, const Material& other);
@@ -60,6 +71,7 @@ NodeIndex append_nodes(Material& material, const Material& other);
 Id<Shape> read_shape(SceneReader& reader, const JsonValue& object, std::span<const std::string_view> extra_keys);
 
 // One function for each key of the root, given that key's value.
+void read_images(SceneReader& reader, const JsonValue& images);
 void read_textures(SceneReader& reader, const JsonValue& textures);
 void read_materials(SceneReader& reader, const JsonValue& materials);
 void read_shapes(SceneReader& reader, const JsonValue& shapes);

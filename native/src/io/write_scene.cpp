@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A scene as one JSON text with everything in it. Reading it gives the same tables in the same order.
+#include <algorithm>
 #include <set>
 #include <variant>
 
@@ -42,22 +43,66 @@ std::vector<std::string> material_keys(const Table<Material>& materials) {
   return keys;
 }
 
-Json write_texture(const Texture& texture) {
-  Json json = std::visit([](const auto& kind) { return write_fields(kind); }, texture);
-  if (const auto* image_texture = std::get_if<ImageTexture>(&texture)) {
-    const Image& image = image_texture->image;
-    json["width"] = image.width;
-    json["height"] = image.height;
-    json["channels"] = image.channels;
+Json write_image(const Image& image) {
+  Json json = {{"width", image.width}, {"height", image.height}, {"channels", image.channels}};
+  if (image.bytes.empty()) {
     json["pixels"] = write_array(image.pixels);
+  } else {
+    json["bytes"] = write_array(image.bytes);
+    json["encoding"] = write(image.encoding);
   }
   return json;
+}
+
+// Each image once, however many use it.
+class ImageWriter {
+ public:
+  // The name under which the image is found.
+  std::string add(const Image& image) {
+    const auto found = std::ranges::find_if(images_, [&](const Image* other) { return other->has_same_pixels(image); });
+    const auto index = found - images_.begin();
+    if (found == images_.end()) images_.push_back(&image);
+    return "image" + std::to_string(index);
+  }
+  [[nodiscard]] Json write() const {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < images_.size(); ++i) json["image" + std::to_string(i)] = write_image(*images_[i]);
+    return json;
+  }
+
+ private:
+  std::vector<const Image*> images_;
+};
+
+Json write_texture(const Texture& texture, ImageWriter& images) {
+  Json json = std::visit([](const auto& kind) { return write_fields(kind); }, texture);
+  if (const auto* image_texture = std::get_if<ImageTexture>(&texture)) json["image"] = images.add(image_texture->image);
+  return json;
+}
+
+Json write_environment(const Environment& environment, ImageWriter& images) {
+  Json json = write_fields(environment);
+  if (environment.layers.empty()) return json;
+  json["layers"] = Json::array();
+  for (const EnvironmentLayer& layer : environment.layers) {
+    Json& written = json["layers"].emplace_back(write_fields(layer));
+    if (!layer.image.is_empty()) written["image"] = images.add(layer.image);
+  }
+  return json;
+}
+
+Json write_share(const ShareInput& input, const SceneKeys& keys) {
+  if (!input.texture.is_valid()) return write(input.constant);
+  const std::string& texture = keys.textures.at(input.texture.index);
+  return input.is_alpha ? Json{{"texture", texture}, {"alpha", true}} : Json(texture);
 }
 
 Json write_shader(const ShaderNode& node, const SceneKeys& keys) {
   const auto write_input = [&]<class Value>(const Value& value) -> Json {
     if constexpr (std::same_as<Value, ColorInput>)
       return value.texture.is_valid() ? Json(keys.textures.at(value.texture.index)) : write(value.constant);
+    else if constexpr (std::same_as<Value, ShareInput>)
+      return write_share(value, keys);
     else if constexpr (std::same_as<Value, NodeIndex>)
       return value == no_node ? Json(nullptr) : Json(value);
     else
@@ -84,6 +129,10 @@ Json write_mesh(const Mesh& mesh) {
   if (!mesh.corner_normals.empty()) json["corner_normals"] = write_array(mesh.corner_normals);
   if (!mesh.uvs.empty()) json["uvs"] = write_array(mesh.uvs);
   if (!mesh.material_slots.empty()) json["material_slots"] = write_array(mesh.material_slots);
+  for (const std::vector<Vec3f>& positions : mesh.motion_positions)
+    json["motion_positions"].push_back(write_array(positions));
+  for (const std::vector<Vec3f>& normals : mesh.motion_corner_normals)
+    json["motion_corner_normals"].push_back(write_array(normals));
   return json;
 }
 
@@ -97,6 +146,7 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
   if (!instance.name.empty()) json["name"] = instance.name;
   json["shape"] = keys.shapes.at(instance.shape.index);
   json["transform"] = write(instance.object_to_world);
+  if (!instance.motion_transforms.empty()) json["motion_transforms"] = write(instance.motion_transforms);
   if (!instance.materials.empty()) json["materials"] = Json::array();
   for (const Id<Material> id : instance.materials)
     json["materials"].push_back(id.is_valid() ? Json(keys.materials.at(id.index)) : Json(nullptr));
@@ -105,6 +155,10 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
     for (std::size_t bit = 0; bit < ray_kind_names.size(); ++bit)
       if ((instance.visibility >> bit) & 1u) json["visibility"].push_back(ray_kind_names[bit]);
   }
+  if (instance.is_holdout) json["holdout"] = true;
+  if (instance.is_shadow_catcher) json["shadow_catcher"] = true;
+  if (instance.shadow_terminator_offset != 0)
+    json["shadow_terminator_offset"] = write(instance.shadow_terminator_offset);
   return json;
 }
 
@@ -128,10 +182,11 @@ std::string scene_to_json(const Scene& scene) {
 
   Json json = {{"settings", write_settings(scene.settings)}};
   if (scene.camera) json["camera"] = std::visit(write_kind, *scene.camera);
-  json["environment"] = write_fields(scene.environment);
+  ImageWriter images;
+  json["environment"] = write_environment(scene.environment, images);
   json["textures"] = Json::object();
   for (std::uint32_t i = 0; i < scene.textures.size(); ++i)
-    json["textures"][keys.textures[i]] = write_texture(scene.textures[i]);
+    json["textures"][keys.textures[i]] = write_texture(scene.textures[i], images);
   json["materials"] = Json::object();
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
     json["materials"][keys.materials[i]] = write_material(scene.materials[i], keys.materials[i], keys);
@@ -143,6 +198,7 @@ std::string scene_to_json(const Scene& scene) {
   json["lights"] = Json::array();
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
     json["lights"].push_back(std::visit(write_kind, scene.lights[i]));
+  if (Json written = images.write(); !written.empty()) json["images"] = std::move(written);
   return to_text(json);
 }
 

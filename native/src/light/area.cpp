@@ -190,6 +190,19 @@ EmissionPdf lamp_emission_pdf(const AreaLight& light, Vec3f, Vec3f direction, fl
   return {float(1 / plate.area), is_inside ? float(cosine / (std::numbers::pi * cone)) : 0};
 }
 
+LightBounds lamp_bounds(const AreaLight& light) {
+  const Plate plate = plate_of(light);
+  Bounds3f box;
+  for (const double x : {-0.5, 0.5})
+    for (const double y : {-0.5, 0.5}) box.extend(Vec3f(plate.center + plate.edge_x * x + plate.edge_y * y));
+  return {.box = box,
+          .axis = Vec3f(plate.normal),
+          .cos_normals = 1,
+          .cos_emission = has_full_spread(light) ? 0 : float(std::cos(half_spread(light))),
+          .is_solid = true,
+          .intensity = luminance(light.radiance) * float(plate.area * spread_share(light, 1))};
+}
+
 float lamp_power(const AreaLight& light, float) { return pi * float(plate_of(light).area) * luminance(light.radiance); }
 
 }  // namespace basicrt

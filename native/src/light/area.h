@@ -13,6 +13,7 @@ namespace basicrt {
                                                   Vec3f scene_center, float scene_radius);
 [[nodiscard]] EmissionPdf lamp_emission_pdf(const AreaLight& light, Vec3f position, Vec3f direction,
                                             float scene_radius);
+[[nodiscard]] LightBounds lamp_bounds(const AreaLight& light);
 [[nodiscard]] float lamp_power(const AreaLight& light, float scene_radius);
 
 }  // namespace basicrt

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "math/bounds.h"
 #include "math/ray.h"
 
 namespace basicrt {
@@ -13,6 +14,10 @@ struct Ball {
   float radius = 0;
   bool is_soft = false;  // the disc; it has no inside
 };
+
+[[nodiscard]] inline Bounds3f box_of(const Ball& ball) {
+  return {ball.center - Vec3f(ball.radius), ball.center + Vec3f(ball.radius)};
+}
 
 // A body this small (metres) is a point: 1 / radius^2 must stay a float.
 inline constexpr float smallest_ball_radius = 1e-9f;

@@ -17,6 +17,7 @@ struct EmissiveInstance {
   const Shape* shape = nullptr;
   TransformD object_to_world;
   TransformD world_to_object;
+  std::vector<TransformD> motion;  // as of a TracedInstance: object to world over time, or none
   // Radiance of each material slot's front and back.
   std::vector<Color> front, back;
 };

@@ -10,12 +10,6 @@
 namespace basicrt {
 namespace {
 
-// As for instances: a lamp is seen when any of the ray's kinds sees it.
-bool is_visible(const Light& light, std::uint32_t ray_kinds) {
-  const bool by_camera = std::visit([](const auto& lamp) { return lamp.is_camera_visible; }, light);
-  return by_camera || (ray_kinds & ~ray_camera) != 0;
-}
-
 // Black light is none; and where a lamp is so near or far that a number leaves the range of floats, it is lost.
 bool is_usable(Color radiance, float pdf) {
   return pdf > 0 && pdf < infinity && is_finite(radiance) && !is_black(radiance);
@@ -23,21 +17,42 @@ bool is_usable(Color radiance, float pdf) {
 
 }  // namespace
 
+std::uint32_t visibility(const Light& light) {
+  return std::visit(
+      [](const auto& lamp) {
+        std::uint32_t kinds = 0;
+        const auto add = [&](bool is_visible, RayKind kind) { kinds |= is_visible ? kind : 0u; };
+        add(lamp.is_camera_visible, ray_camera);
+        add(lamp.is_diffuse_visible, ray_diffuse);
+        add(lamp.is_glossy_visible, ray_glossy);
+        add(lamp.is_transmission_visible, ray_transmission);
+        add(lamp.is_volume_visible, ray_volume);
+        return kinds;
+      },
+      light);
+}
+
 bool is_delta(const Light& light) {
   return std::visit([](const auto& lamp) { return is_delta_lamp(lamp); }, light);
 }
 
 std::optional<LightSample> sample_light(const Light& light, Vec3f position, Vec2f u) {
-  std::optional<LightSample> sample =
-      std::visit([&](const auto& lamp) { return sample_lamp(lamp, position, u); }, light);
-  if (sample && !is_usable(sample->radiance, sample->pdf)) sample.reset();
+  std::optional<LightSample> sample = std::visit(
+      [&](const auto& lamp) {
+        std::optional<LightSample> made = sample_lamp(lamp, position, u);
+        if (made) made->casts_shadows = lamp.casts_shadows, made->max_bounces = lamp.max_bounces;
+        return made;
+      },
+      light);
+  if (!sample || !is_usable(sample->radiance, sample->pdf)) return std::nullopt;
+  sample->kinds = visibility(light);
   return sample;
 }
 
 std::optional<LightHit> intersect_light(const Light& light, const Ray& ray) {
-  if (!is_visible(light, ray.kinds)) return std::nullopt;
   std::optional<LightHit> hit = std::visit([&](const auto& lamp) { return intersect_lamp(lamp, ray); }, light);
-  if (hit && !is_usable(hit->radiance, hit->pdf)) hit.reset();
+  // As for instances: a lamp is seen when any of the ray's kinds sees it.
+  if (hit && !(is_usable(hit->radiance, hit->pdf) && (visibility(light) & ray.kinds) != 0)) hit.reset();
   return hit;
 }
 
@@ -57,6 +72,11 @@ std::optional<EmissionSample> sample_emission(const Light& light, Vec2f u_positi
 
 EmissionPdf emission_pdf(const Light& light, Vec3f position, Vec3f direction, float scene_radius) {
   return std::visit([&](const auto& lamp) { return lamp_emission_pdf(lamp, position, direction, scene_radius); },
+                    light);
+}
+
+std::variant<LightBounds, DistantBounds> light_bounds(const Light& light) {
+  return std::visit([](const auto& lamp) -> std::variant<LightBounds, DistantBounds> { return lamp_bounds(lamp); },
                     light);
 }
 

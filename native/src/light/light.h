@@ -2,20 +2,32 @@
 // The lamps: described in radiometric units, sampled towards a point and from themselves. Lamps do not block rays.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <tuple>
 #include <variant>
 
 #include "base/describe.h"
+#include "light/light_bounds.h"
 #include "math/color.h"
 #include "math/ray.h"
 #include "math/transform.h"
 
 namespace basicrt {
 
-inline constexpr std::string_view camera_visible_help =
-    "whether camera rays see the lamp; what it lights stays the same";
+// What every lamp has, whatever its kind: a switch for each way in which light may reach the camera.
+template <class Lamp>
+constexpr auto lamp_switches() {
+  return std::tuple{
+      field("camera_visible", &Lamp::is_camera_visible, "camera rays see the lamp"),
+      field("diffuse_visible", &Lamp::is_diffuse_visible, "it lights by diffuse reflection"),
+      field("glossy_visible", &Lamp::is_glossy_visible, "it lights by glossy reflection, and mirrors see it"),
+      field("transmission_visible", &Lamp::is_transmission_visible, "it lights through glass, and is seen through it"),
+      field("volume_visible", &Lamp::is_volume_visible, "it lights volumes"),
+      field("casts_shadows", &Lamp::casts_shadows, "what is in the way dims its light"),
+      field("max_bounces", &Lamp::max_bounces, "scatterings behind which surfaces aren't lit by it", within(0, 1024))};
+}
 
 // A sphere of the given radius, or a point where that is 0. With soft falloff a disc that faces the lit point stands
 // in for the sphere, as Blender's lamps have it by default.
@@ -24,14 +36,18 @@ struct PointLight {
   Color intensity{1.0f};  // W / sr; a sphere has the radiance intensity / (pi radius^2)
   float radius = 0;
   bool is_soft = false;
-  bool is_camera_visible = true;
+  bool is_camera_visible = true, is_diffuse_visible = true, is_glossy_visible = true;
+  bool is_transmission_visible = true, is_volume_visible = true;
+  bool casts_shadows = true;
+  int max_bounces = 1024;
   static constexpr std::string_view kind = "point";
   static constexpr auto fields() {
-    return std::tuple{field("position", &PointLight::position, "world space, metres"),
-                      field("intensity", &PointLight::intensity, "W / sr", at_least(0)),
-                      field("radius", &PointLight::radius, "metres", at_least(0)),
-                      field("soft", &PointLight::is_soft, "a disc that faces the lit point instead of a sphere"),
-                      field("camera_visible", &PointLight::is_camera_visible, camera_visible_help)};
+    return std::tuple_cat(
+        std::tuple{field("position", &PointLight::position, "world space, metres"),
+                   field("intensity", &PointLight::intensity, "W / sr", at_least(0)),
+                   field("radius", &PointLight::radius, "metres", at_least(0)),
+                   field("soft", &PointLight::is_soft, "a disc that faces the lit point instead of a sphere")},
+        lamp_switches<PointLight>());
   }
 };
 
@@ -42,16 +58,20 @@ struct SpotLight {
   bool is_soft = false;
   float angle = 0.785398f;  // full angle of the cone, radians
   float blend = 0.15f;      // share of the cone in which it fades
-  bool is_camera_visible = true;
+  bool is_camera_visible = true, is_diffuse_visible = true, is_glossy_visible = true;
+  bool is_transmission_visible = true, is_volume_visible = true;
+  bool casts_shadows = true;
+  int max_bounces = 1024;
   static constexpr std::string_view kind = "spot";
   static constexpr auto fields() {
-    return std::tuple{field("transform", &SpotLight::to_world, "local to world; shines along local -z"),
-                      field("intensity", &SpotLight::intensity, "W / sr on the axis", at_least(0)),
-                      field("radius", &SpotLight::radius, "metres", at_least(0)),
-                      field("soft", &SpotLight::is_soft, "a disc that faces the lit point instead of a sphere"),
-                      field("angle", &SpotLight::angle, "full angle of the cone, radians", above(0)),
-                      field("blend", &SpotLight::blend, "share of the cone in which it fades", within(0, 1)),
-                      field("camera_visible", &SpotLight::is_camera_visible, camera_visible_help)};
+    return std::tuple_cat(
+        std::tuple{field("transform", &SpotLight::to_world, "local to world; shines along local -z"),
+                   field("intensity", &SpotLight::intensity, "W / sr on the axis", at_least(0)),
+                   field("radius", &SpotLight::radius, "metres", at_least(0)),
+                   field("soft", &SpotLight::is_soft, "a disc that faces the lit point instead of a sphere"),
+                   field("angle", &SpotLight::angle, "full angle of the cone, radians", above(0)),
+                   field("blend", &SpotLight::blend, "share of the cone in which it fades", within(0, 1))},
+        lamp_switches<SpotLight>());
   }
 };
 
@@ -59,13 +79,17 @@ struct SunLight {
   Vec3f direction{0, 0, -1};  // in which the light travels
   Color irradiance{1.0f};     // W / m^2 on a surface that faces it
   float angle = 0;            // full angle of the disc, radians
-  bool is_camera_visible = true;
+  bool is_camera_visible = true, is_diffuse_visible = true, is_glossy_visible = true;
+  bool is_transmission_visible = true, is_volume_visible = true;
+  bool casts_shadows = true;
+  int max_bounces = 1024;
   static constexpr std::string_view kind = "sun";
   static constexpr auto fields() {
-    return std::tuple{field("direction", &SunLight::direction, "in which the light travels, world space"),
-                      field("irradiance", &SunLight::irradiance, "W / m^2 on a surface that faces it", at_least(0)),
-                      field("angle", &SunLight::angle, "full angle of the disc, radians", within(0, 3.141593)),
-                      field("camera_visible", &SunLight::is_camera_visible, camera_visible_help)};
+    return std::tuple_cat(
+        std::tuple{field("direction", &SunLight::direction, "in which the light travels, world space"),
+                   field("irradiance", &SunLight::irradiance, "W / m^2 on a surface that faces it", at_least(0)),
+                   field("angle", &SunLight::angle, "full angle of the disc, radians", within(0, 3.141593))},
+        lamp_switches<SunLight>());
   }
 };
 
@@ -75,14 +99,18 @@ struct AreaLight {
   Color radiance{1.0f};
   bool is_ellipse = false;
   float spread = 3.141593f;  // full angle, radians; pi shines everywhere alike
-  bool is_camera_visible = true;
+  bool is_camera_visible = true, is_diffuse_visible = true, is_glossy_visible = true;
+  bool is_transmission_visible = true, is_volume_visible = true;
+  bool casts_shadows = true;
+  int max_bounces = 1024;
   static constexpr std::string_view kind = "area";
   static constexpr auto fields() {
-    return std::tuple{field("transform", &AreaLight::to_world, "local to world; a unit square or disc at z = 0"),
-                      field("radiance", &AreaLight::radiance, "W / (m^2 sr) with full spread", at_least(0)),
-                      field("ellipse", &AreaLight::is_ellipse, "an ellipse instead of a rectangle"),
-                      field("spread", &AreaLight::spread, "full angle, radians", within(0, 3.141593)),
-                      field("camera_visible", &AreaLight::is_camera_visible, camera_visible_help)};
+    return std::tuple_cat(
+        std::tuple{field("transform", &AreaLight::to_world, "local to world; a unit square or disc at z = 0"),
+                   field("radiance", &AreaLight::radiance, "W / (m^2 sr) with full spread", at_least(0)),
+                   field("ellipse", &AreaLight::is_ellipse, "an ellipse instead of a rectangle"),
+                   field("spread", &AreaLight::spread, "full angle, radians", within(0, 3.141593))},
+        lamp_switches<AreaLight>());
   }
 };
 
@@ -95,6 +123,10 @@ struct LightSample {
   Color radiance{0.0f};       // along -wi; for a delta light, times what makes radiance / pdf the irradiance
   float pdf = 0;              // over solid angle; 1 for a delta light
   bool is_delta = false;      // no other ray can find it: no multiple importance sampling
+  // A lamp's switches: the kinds of scattering that it lights, whether a shadow ray is needed, and the last bounce.
+  std::uint32_t kinds = ray_all;
+  bool casts_shadows = true;
+  int max_bounces = 1024;
 };
 
 // Light that a ray runs into.
@@ -113,6 +145,8 @@ struct EmissionSample {
   float pdf_direction = 1;  // over solid angle (1 for a sun without angle)
 };
 
+// RayKind bits of the rays that see the lamp.
+[[nodiscard]] std::uint32_t visibility(const Light& light);
 // Light from a single place or direction: rays never run into it.
 [[nodiscard]] bool is_delta(const Light& light);
 // Nothing where no light arrives.
@@ -127,7 +161,9 @@ struct EmissionPdf {
   float position = 0, direction = 0;
 };
 [[nodiscard]] EmissionPdf emission_pdf(const Light& light, Vec3f position, Vec3f direction, float scene_radius);
-// Watts, all directions together: what lights are chosen by.
+// What lights are chosen by.
+[[nodiscard]] std::variant<LightBounds, DistantBounds> light_bounds(const Light& light);
+// Watts, all directions together.
 [[nodiscard]] float power_estimate(const Light& light, float scene_radius);
 
 }  // namespace basicrt

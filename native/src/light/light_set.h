@@ -2,6 +2,7 @@
 // Everything that shines in a scene - lamps, emissive shapes, the environment - and how one of them is chosen.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <variant>
@@ -9,60 +10,80 @@
 
 #include "geometry/surface_point.h"
 #include "light/emissive_instance.h"
+#include "light/environment_sampler.h"
 #include "light/light.h"
+#include "light/light_picker.h"
 #include "light/mesh_emitter.h"
 #include "light/sphere_emitter.h"
-#include "math/bounds.h"
-#include "math/distribution.h"
 
 namespace basicrt {
-
-// The same radiance from everywhere.
-struct Environment {
-  Color radiance{0.0f};
-  static constexpr auto fields() {
-    return std::tuple{field("radiance", &Environment::radiance, "W / (m^2 sr), each direction alike", at_least(0))};
-  }
-};
 
 class LightSet {
  public:
   LightSet() = default;
-  LightSet(std::vector<Light> lamps, std::vector<EmissiveInstance> emitters, const Environment& environment,
+  LightSet(std::vector<Light> lamps, std::vector<EmissiveInstance> emitters, EnvironmentSampler environment,
            const Bounds3f& scene_bounds);
 
-  // Chooses a light with `choice` and a point on it with `u`; the pdf includes the choice. Nothing where no light
-  // reaches the position.
-  [[nodiscard]] std::optional<LightSample> sample(Vec3f position, float choice, Vec2f u) const;
+  // Chooses a light with `choice` and a place on it with `u`; the pdf includes the choice. Nothing where no light
+  // reaches the point. Emissive shapes that move are where they are at the time.
+  [[nodiscard]] std::optional<LightSample> sample(const LitPoint& point, float choice, Vec2f u, float time = 0) const;
 
-  // The density of sample() for a ray from `origin` that hit an emissive surface.
-  [[nodiscard]] float pdf_surface(const SurfacePoint& point, Vec3f origin) const;
-  [[nodiscard]] float pdf_environment() const;  // 0: the same from everywhere is found by BSDF sampling alone
-
-  // Calls visit(LightHit) for each lamp that the ray passes through, with pdfs that include the choice. All of them:
-  // lamps don't block rays.
-  template <class Visitor>
-  void for_each_lamp_hit(const Ray& ray, Visitor&& visit) const {
-    for (const std::uint32_t lamp : lamps_with_size_) {
-      if (auto hit = intersect_light(lamps_[lamp], ray)) {
-        hit->pdf *= static_cast<float>(choices_.probability(lamp));
-        visit(*hit);
-      }
-    }
+  // The density of sample() for a ray from the point that hit an emissive surface.
+  [[nodiscard]] float pdf_surface(const SurfacePoint& hit, const LitPoint& point) const;
+  // The same for a ray that hit nothing; 0 where BSDF sampling alone finds the environment.
+  [[nodiscard]] float pdf_environment(Vec3f direction) const {
+    return environment_share_ == 0 ? 0 : environment_share_ * environment_.pdf(direction);
   }
 
-  [[nodiscard]] const Environment& environment() const { return environment_; }
-  [[nodiscard]] bool is_empty() const { return !(choices_.total() > 0); }  // nothing to sample
+  // Calls visit(LightHit) for each lamp that the ray passes through, with pdfs that include the choice at its origin,
+  // where `normal` is as in LitPoint. All of them: lamps don't block rays.
+  template <class Visitor>
+  void for_each_lamp_hit(const Ray& ray, Vec3f normal, Visitor&& visit) const {
+    const auto visit_lamp = [&](std::uint32_t lamp) { visit_hit(lamp, ray, normal, visit); };
+    if (lamps_with_size_.size() <= few_lamps)
+      std::for_each(lamps_with_size_.begin(), lamps_with_size_.end(), visit_lamp);
+    else
+      picker_.visit_solid(ray, visit_lamp);
+  }
+  // The same for lamps infinitely far away, whatever the ray's end: for rays that hit nothing.
+  template <class Visitor>
+  void for_each_distant_hit(Ray ray, Vec3f normal, Visitor&& visit) const {
+    ray.t_max = infinity;
+    for (const std::uint32_t lamp : distant_lamps_with_size_) visit_hit(lamp, ray, normal, visit);
+  }
+
+  // What a ray sees that hits nothing.
+  [[nodiscard]] Color environment_radiance(Vec3f direction, bool is_camera_ray) const {
+    return eval_environment(environment_.environment(), direction, is_camera_ray);
+  }
+  // Nothing to sample.
+  [[nodiscard]] bool is_empty() const { return picker_.size() == 0 && environment_share_ == 0; }
 
  private:
   using Emitter = std::variant<MeshEmitter, SphereEmitter>;
 
+  void add_emitter(const EmissiveInstance& instance);
+  [[nodiscard]] std::optional<LightSample> sample_lamp_or_emitter(const LitPoint& point, float choice, Vec2f u,
+                                                                  float time) const;
+
+  // So few are looked at one by one.
+  static constexpr std::size_t few_lamps = 2;
+
+  template <class Visitor>
+  void visit_hit(std::uint32_t lamp, const Ray& ray, Vec3f normal, Visitor&& visit) const {
+    std::optional<LightHit> hit = intersect_light(lamps_[lamp], ray);
+    if (!hit) return;
+    hit->pdf *= (1 - environment_share_) * picker_.probability({lamp, 0}, {ray.origin, normal});
+    visit(*hit);
+  }
+
   std::vector<Light> lamps_;
-  std::vector<std::uint32_t> lamps_with_size_;  // those that rays can run into
+  std::vector<std::uint32_t> lamps_with_size_, distant_lamps_with_size_;  // those that rays can run into
   std::vector<Emitter> emitters_;
   std::vector<std::uint32_t> emitter_of_instance_;  // index into emitters_, or no_emitter
-  DiscreteDistribution choices_;                    // lamps first, then emitters
-  Environment environment_;
+  LightPicker picker_;                              // its sources are the lamps first, then the emitters
+  EnvironmentSampler environment_;
+  float environment_share_ = 0;  // how often the environment is chosen
 };
 
 }  // namespace basicrt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two steps: a triangle by its power, then a place on it.
+// A triangle is sampled as it lies in the world.
 #include "light/mesh_emitter.h"
 
 #include <numbers>
@@ -9,46 +9,94 @@ namespace basicrt {
 MeshEmitter::MeshEmitter(const EmissiveInstance& instance, const Mesh& mesh)
     : mesh_(&mesh),
       object_to_world_(instance.object_to_world),
+      motion_(instance.motion),
       is_mirrored_(instance.object_to_world.determinant() < 0),
       front_(instance.front),
       back_(instance.back) {
-  std::vector<double> powers(mesh.triangles.size());
-  for (std::uint32_t i = 0; i < powers.size(); ++i) {
-    const double radiance = double(luminance(front_[slot(i)])) + luminance(back_[slot(i)]);
-    if (radiance > 0) powers[i] = radiance * std::numbers::pi * world_triangle(i).area();
-  }
-  triangles_ = DiscreteDistribution(std::move(powers));
+  for (std::uint32_t i = 0; i < triangle_count(); ++i)
+    if (const double shed = radiance(i); shed > 0) power_ += shed * std::numbers::pi * mean_area(i);
 }
 
-std::optional<LightSample> MeshEmitter::sample(Vec3f position, float choice, Vec2f u) const {
-  const auto [triangle, probability, remainder] = triangles_.choose(choice);
-  const EmitterTriangle corners = world_triangle(triangle);
-  const std::optional<TrianglePlace> place = sample_triangle_emitter(corners, Vec3d(position), u);
-  if (!place) return std::nullopt;
-  const double distance = length(place->offset);
-  return LightSample{.wi = Vec3f(place->offset / distance),
+LightBounds MeshEmitter::bounds(std::uint32_t triangle) const {
+  LightBounds bounds;
+  if (!(radiance(triangle) > 0)) return bounds;
+  if (is_moving()) return moving_bounds(triangle);
+  const float front = luminance(front_[slot(triangle)]), back = luminance(back_[slot(triangle)]);
+  const EmitterTriangle corners = place(triangle, 0).corners;
+  const Vec3d across = corners.cross_product();
+  const double twice_area = length(across);
+  if (!(twice_area > 0)) return bounds;
+  for (const Vec3d corner : {corners.p0, corners.p1, corners.p2}) bounds.box.extend(Vec3f(corner));
+  const bool is_turned = (front > 0) == is_mirrored_;
+  bounds.axis = Vec3f(across * ((is_turned ? -1 : 1) / twice_area));
+  bounds.cos_normals = 1;
+  bounds.is_two_sided = front > 0 && back > 0;
+  const double intensity = std::max(front, back) * twice_area / 2;
+  bounds.intensity = static_cast<float>(std::min<double>(intensity, std::numeric_limits<float>::max()));
+  return bounds;
+}
+
+// What moves may face anywhere. Its corners stay within the hull of those that each of its shapes has in each of its places.
+LightBounds MeshEmitter::moving_bounds(std::uint32_t triangle) const {
+  LightBounds bounds{.is_two_sided = true};
+  const std::size_t shapes = mesh_->motion_intervals() + 1;
+  const std::vector<TransformD> places = motion_.empty() ? std::vector{object_to_world_} : motion_;
+  for (std::size_t shape = 0; shape < shapes; ++shape)
+    for (int i = 0; i < 3; ++i) {
+      const float time = shapes == 1 ? 0 : float(shape) / float(shapes - 1);
+      const Vec3d corner(mesh_->position_at(triangle, i, time));
+      for (const TransformD& object_to_world : places) bounds.box.extend(Vec3f(object_to_world.point(corner)));
+    }
+  const double front = luminance(front_[slot(triangle)]), back = luminance(back_[slot(triangle)]);
+  const double intensity = std::max(front, back) * mean_area(triangle);
+  bounds.intensity = static_cast<float>(std::min<double>(intensity, std::numeric_limits<float>::max()));
+  return bounds;
+}
+
+std::optional<LightSample> MeshEmitter::sample(std::uint32_t triangle, Vec3f position, Vec2f u, float time) const {
+  const PlacedTriangle placed = place(triangle, time);
+  const std::optional<TrianglePlace> chosen = sample_triangle_emitter(placed.corners, Vec3d(position), u);
+  if (!chosen) return std::nullopt;
+  const double distance = length(chosen->offset);
+  return LightSample{.wi = Vec3f(chosen->offset / distance),
                      .distance = float(distance),
-                     .radiance = radiance_along(place->offset, triangle, corners),
-                     .pdf = float(probability * place->pdf)};
+                     .radiance = radiance_along(chosen->offset, triangle, placed),
+                     .pdf = float(chosen->pdf)};
 }
 
-double MeshEmitter::pdf(std::uint32_t triangle, Vec3f place, Vec3f position) const {
-  const double probability = triangles_.probability(triangle);
-  if (probability == 0) return 0;
-  const EmitterTriangle corners = world_triangle(triangle);
-  const Vec3d offset = Vec3d(place) - Vec3d(position);
-  if (is_black(radiance_along(offset, triangle, corners))) return 0;
-  return probability * pdf_triangle_emitter(corners, Vec3d(position), offset);
+double MeshEmitter::pdf(std::uint32_t triangle, Vec3f point, Vec3f position, float time) const {
+  const PlacedTriangle placed = place(triangle, time);
+  const Vec3d offset = Vec3d(point) - Vec3d(position);
+  if (is_black(radiance_along(offset, triangle, placed))) return 0;
+  return pdf_triangle_emitter(placed.corners, Vec3d(position), offset);
 }
 
-EmitterTriangle MeshEmitter::world_triangle(std::uint32_t triangle) const {
-  const auto corner = [&](int i) { return object_to_world_.point(Vec3d(mesh_->position(triangle, i))); };
-  return {corner(0), corner(1), corner(2)};
+double MeshEmitter::radiance(std::uint32_t triangle) const {
+  return double(luminance(front_[slot(triangle)])) + luminance(back_[slot(triangle)]);
 }
 
-Color MeshEmitter::radiance_along(Vec3d offset, std::uint32_t triangle, const EmitterTriangle& corners) const {
+MeshEmitter::PlacedTriangle MeshEmitter::place(std::uint32_t triangle, float time) const {
+  const auto place_by = [&](const TransformD& object_to_world, bool is_mirrored) {
+    const auto corner = [&](int i) { return object_to_world.point(Vec3d(mesh_->position_at(triangle, i, time))); };
+    return PlacedTriangle{{corner(0), corner(1), corner(2)}, is_mirrored};
+  };
+  if (motion_.empty()) return place_by(object_to_world_, is_mirrored_);
+  const TransformD object_to_world = transform_at(motion_, time);
+  return place_by(object_to_world, object_to_world.determinant() < 0);
+}
+
+double MeshEmitter::mean_area(std::uint32_t triangle) const {
+  const std::size_t intervals =
+      std::max<std::size_t>(mesh_->motion_intervals(), motion_.empty() ? 0 : motion_.size() - 1);
+  double sum = 0;
+  for (std::size_t key = 0; key <= intervals; ++key)
+    sum += place(triangle, intervals == 0 ? 0 : float(key) / float(intervals)).corners.area();
+  return sum / double(intervals + 1);
+}
+
+Color MeshEmitter::radiance_along(Vec3d offset, std::uint32_t triangle, const PlacedTriangle& placed) const {
   // The front is where the winding has it in object space: a mirror turns the winding round, not the front.
-  const bool is_front = (dot(offset, corners.cross_product()) < 0) != is_mirrored_;
+  const bool is_front = (dot(offset, placed.corners.cross_product()) < 0) != placed.is_mirrored;
   return is_front ? front_[slot(triangle)] : back_[slot(triangle)];
 }
 

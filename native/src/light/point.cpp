@@ -62,6 +62,10 @@ EmissionPdf lamp_emission_pdf(const PointLight& light, Vec3f position, Vec3f dir
   return {is_delta_lamp(light) ? 1 : ball_position_pdf(ball_of(light), position, direction), pdf_sphere};
 }
 
+LightBounds lamp_bounds(const PointLight& light) {
+  return {.box = box_of(ball_of(light)), .is_solid = !is_delta_lamp(light), .intensity = luminance(light.intensity)};
+}
+
 float lamp_power(const PointLight& light, float) { return 4 * pi * luminance(light.intensity); }
 
 }  // namespace basicrt

@@ -21,32 +21,53 @@ double surface_area(const TransformD& object_to_world, double radius) {
 
 SphereEmitter::SphereEmitter(const EmissiveInstance& instance, const Sphere& sphere)
     : ball_{sphere.center, sphere.radius},
-      object_to_world_(instance.object_to_world),
-      world_to_object_(instance.world_to_object),
+      placement_(instance.object_to_world),
+      motion_(instance.motion),
       front_(instance.front.front()),
       back_(instance.back.front()),
-      power_(std::numbers::pi * surface_area(object_to_world_, sphere.radius) *
+      power_(std::numbers::pi * surface_area(instance.object_to_world, sphere.radius) *
              (double(luminance(front_)) + luminance(back_))) {}
 
-std::optional<LightSample> SphereEmitter::sample(Vec3f position, Vec2f u) const {
-  const Vec3f local_position(world_to_object_.point(Vec3d(position)));
+LightBounds SphereEmitter::bounds() const {
+  LightBounds bounds;
+  double area = 0;
+  const std::vector<TransformD> places = motion_.empty() ? std::vector{placement_.object_to_world} : motion_;
+  for (const TransformD& object_to_world : places) {
+    const Vec3d center = object_to_world.point(Vec3d(ball_.center));
+    const Vec3d x = object_to_world.column(0), y = object_to_world.column(1), z = object_to_world.column(2);
+    const auto reach = [&](double a, double b, double c) { return std::sqrt(a * a + b * b + c * c); };
+    const Vec3d half = Vec3d{reach(x.x, y.x, z.x), reach(x.y, y.y, z.y), reach(x.z, y.z, z.z)} * double(ball_.radius);
+    bounds.box.extend({Vec3f(center - half), Vec3f(center + half)});
+    area = std::max(area, surface_area(object_to_world, ball_.radius));
+  }
+  // Seen from outside, a convex body shows a quarter of its surface on average.
+  const double intensity = area / 4 * std::max(double(luminance(front_)), double(luminance(back_)));
+  bounds.intensity = static_cast<float>(std::min<double>(intensity, std::numeric_limits<float>::max()));
+  return bounds;
+}
+
+std::optional<LightSample> SphereEmitter::sample(Vec3f position, Vec2f u, float time) const {
+  const Placement placement = placement_at(time);
+  const Vec3f local_position(placement.world_to_object.point(Vec3d(position)));
   const std::optional<BallSample> local = sample_ball(ball_, local_position, u);
   if (!local) return std::nullopt;
-  const Vec3d local_wi(local->wi), wi = object_to_world_.vector(local_wi);
+  const Vec3d local_wi(local->wi), wi = placement.object_to_world.vector(local_wi);
   const double stretch = length(wi);
   return LightSample{.wi = Vec3f(wi / stretch),
                      .distance = float(local->distance * stretch),
                      .radiance = radiance_towards(local_position),
-                     .pdf = local->pdf * float(solid_angle_ratio(object_to_world_, local_wi))};
+                     .pdf = local->pdf * float(solid_angle_ratio(placement.object_to_world, local_wi))};
 }
 
-double SphereEmitter::pdf(Vec3f place, Vec3f position) const {
-  const Vec3f local_position(world_to_object_.point(Vec3d(position)));
+double SphereEmitter::pdf(Vec3f place, Vec3f position, float time) const {
+  const Placement placement = placement_at(time);
+  const Vec3f local_position(placement.world_to_object.point(Vec3d(position)));
   if (is_black(radiance_towards(local_position))) return 0;
-  const Vec3d local_offset = world_to_object_.vector(Vec3d(place) - Vec3d(position));
+  const Vec3d local_offset = placement.world_to_object.vector(Vec3d(place) - Vec3d(position));
   const double distance = length(local_offset);
   if (!(distance > 0)) return 0;
-  return pdf_ball(ball_, local_position, distance) * solid_angle_ratio(object_to_world_, local_offset / distance);
+  return pdf_ball(ball_, local_position, distance) *
+         solid_angle_ratio(placement.object_to_world, local_offset / distance);
 }
 
 Color SphereEmitter::radiance_towards(Vec3f local_position) const {

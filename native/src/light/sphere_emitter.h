@@ -16,15 +16,20 @@ class SphereEmitter {
   SphereEmitter(const EmissiveInstance& instance, const Sphere& sphere);
 
   [[nodiscard]] double power() const { return power_; }  // watts, of the luminance
-  [[nodiscard]] std::optional<LightSample> sample(Vec3f position, Vec2f u) const;
+  [[nodiscard]] LightBounds bounds() const;              // at all times
+  [[nodiscard]] std::optional<LightSample> sample(Vec3f position, Vec2f u, float time) const;
   // The density of sample() for a place on the surface.
-  [[nodiscard]] double pdf(Vec3f place, Vec3f position) const;
+  [[nodiscard]] double pdf(Vec3f place, Vec3f position, float time) const;
 
  private:
+  [[nodiscard]] Placement placement_at(float time) const {
+    return motion_.empty() ? placement_ : Placement(transform_at(motion_, time));
+  }
   [[nodiscard]] Color radiance_towards(Vec3f local_position) const;
 
   Ball ball_;  // object space
-  TransformD object_to_world_, world_to_object_;
+  Placement placement_;
+  std::vector<TransformD> motion_;
   Color front_, back_;
   double power_;
 };

@@ -22,13 +22,15 @@ SphericalTriangle::SphericalTriangle(Vec3d a, Vec3d b, Vec3d c) : a_(normalize(a
 }
 
 Vec3d SphericalTriangle::sample(Vec2f u) const {
-  // The inner angle alpha at a.
+  // The inner angle alpha at a, by its sine and cosine: they are all that is needed of it.
   const double cos_c = dot(a_, b_);
-  const double alpha = std::atan2(std::abs(dot(a_, cross(b_, c_))), dot(b_, c_) - cos_c * dot(a_, c_));
-  const double sin_alpha = std::sin(alpha), cos_alpha = std::cos(alpha);
-  // A triangle a b c' with the share u.x of the area, its corner c' on the edge from a to c.
-  const double phi = u.x * solid_angle_ - alpha;
-  const double s = std::sin(phi), t = std::cos(phi);
+  const double opposite = std::abs(dot(a_, cross(b_, c_))), adjacent = dot(b_, c_) - cos_c * dot(a_, c_);
+  const double hypotenuse = std::sqrt(opposite * opposite + adjacent * adjacent);
+  const double sin_alpha = opposite / hypotenuse, cos_alpha = adjacent / hypotenuse;
+  // A triangle a b c' with the share u.x of the area, its corner c' on the edge from a to c: s and t are the sine and
+  // cosine of that area less alpha.
+  const double area = u.x * solid_angle_, sin_area = std::sin(area), cos_area = std::cos(area);
+  const double s = sin_area * cos_alpha - cos_area * sin_alpha, t = cos_area * cos_alpha + sin_area * sin_alpha;
   const double p = t - cos_alpha, v = s + sin_alpha * cos_c;
   const double q = ((v * t - p * s) * cos_alpha - v) / ((v * s + p * t) * sin_alpha);
   const Vec3d c_prime = turn(a_, perpendicular_part(c_, a_), std::clamp(q, -1.0, 1.0));

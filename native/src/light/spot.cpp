@@ -101,6 +101,22 @@ EmissionPdf lamp_emission_pdf(const SpotLight& light, Vec3f position, Vec3f dire
           direction_pdf(light, direction)};
 }
 
+// The cone as if everything in it were a normal. A transform that isn't a similarity may widen it: then nothing is said.
+LightBounds lamp_bounds(const SpotLight& light) {
+  const TransformD to_world(light.to_world);
+  const Vec3d x = to_world.column(0), y = to_world.column(1), z = to_world.column(2);
+  const double scale = length_squared(z), slack = 1e-5 * scale;
+  const bool is_similarity = std::abs(length_squared(x) - scale) <= slack &&
+                             std::abs(length_squared(y) - scale) <= slack && std::abs(dot(x, y)) <= slack &&
+                             std::abs(dot(x, z)) <= slack && std::abs(dot(y, z)) <= slack;
+  return {.box = box_of(ball_of(light)),
+          .axis = Vec3f(-normalize(z)),
+          .cos_normals = is_similarity ? 1 - cone_of(light) : -1,
+          .cos_emission = 1,
+          .is_solid = !is_delta_lamp(light),
+          .intensity = luminance(light.intensity)};
+}
+
 // Exact where the scale is the same along every axis: the integral of the share over the cone.
 float lamp_power(const SpotLight& light, float) {
   const float solid_angle = 2 * pi * cone_of(light) * (1 - light.blend / 2);

@@ -13,6 +13,7 @@ namespace basicrt {
                                                   Vec3f scene_center, float scene_radius);
 [[nodiscard]] EmissionPdf lamp_emission_pdf(const SpotLight& light, Vec3f position, Vec3f direction,
                                             float scene_radius);
+[[nodiscard]] LightBounds lamp_bounds(const SpotLight& light);
 [[nodiscard]] float lamp_power(const SpotLight& light, float scene_radius);
 
 }  // namespace basicrt

@@ -76,6 +76,14 @@ EmissionPdf lamp_emission_pdf(const SunLight& light, Vec3f, Vec3f direction, flo
   return {pdf_position, is_inside ? pdf_cone(cone) : 0};
 }
 
+DistantBounds lamp_bounds(const SunLight& light) {
+  const float radius = is_delta_lamp(light) ? 0 : std::min(light.angle, pi) / 2;
+  return {.towards = -normalize(light.direction),
+          .cos_radius = std::cos(radius),
+          .sin_radius = std::sin(radius),
+          .irradiance = luminance(light.irradiance)};
+}
+
 // What falls on a disc as wide as the scene.
 float lamp_power(const SunLight& light, float scene_radius) {
   return pi * scene_radius * scene_radius * luminance(light.irradiance);

@@ -12,6 +12,7 @@ namespace basicrt {
 [[nodiscard]] EmissionSample sample_lamp_emission(const SunLight& light, Vec2f u_position, Vec2f u_direction,
                                                   Vec3f scene_center, float scene_radius);
 [[nodiscard]] EmissionPdf lamp_emission_pdf(const SunLight& light, Vec3f position, Vec3f direction, float scene_radius);
+[[nodiscard]] DistantBounds lamp_bounds(const SunLight& light);
 [[nodiscard]] float lamp_power(const SunLight& light, float scene_radius);
 
 }  // namespace basicrt

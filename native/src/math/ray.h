@@ -17,6 +17,7 @@ enum RayKind : std::uint32_t {
   ray_transmission = 1u << 3,
   ray_volume = 1u << 4,
   ray_shadow = 1u << 5,
+  ray_catcher = 1u << 6,  // of no object's own choice: sees shadow catchers and nothing else
   ray_all = ~0u,
 };
 

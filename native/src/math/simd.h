@@ -59,6 +59,7 @@ struct Float4 {
   friend Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.lanes, b.lanes)}; }
   friend Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.lanes, b.lanes)}; }
   friend Float4 abs(Float4 a) { return {_mm_andnot_ps(_mm_set1_ps(-0.0f), a.lanes)}; }
+  friend Float4 sqrt(Float4 a) { return {_mm_sqrt_ps(a.lanes)}; }
   friend Float4 copysign(Float4 magnitude, Float4 sign) {
     const __m128 sign_bit = _mm_set1_ps(-0.0f);
     return {_mm_or_ps(_mm_andnot_ps(sign_bit, magnitude.lanes), _mm_and_ps(sign_bit, sign.lanes))};
@@ -183,6 +184,9 @@ struct alignas(16) Float4 {
   }
   friend Float4 abs(Float4 a) {
     return each(a, a, [](float x, float) { return std::fabs(x); });
+  }
+  friend Float4 sqrt(Float4 a) {
+    return each(a, a, [](float x, float) { return std::sqrt(x); });
   }
   friend Float4 copysign(Float4 magnitude, Float4 sign) {
     return each(magnitude, sign, [](float x, float y) { return std::copysign(x, y); });

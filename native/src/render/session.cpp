@@ -2,6 +2,7 @@
 // Worker threads render tiles and queue them.
 #include "render/session.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -10,25 +11,15 @@
 #include <thread>
 #include <vector>
 
-#include "base/append_result.h"
 #include "base/parallel_for.h"
-#include "integrator/integrator.h"
+#include "render/sample_plan.h"
 #include "render/tile_order.h"
-#include "sampling/filter.h"
+#include "render/tile_render.h"
 
 namespace basicrt {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// Enough rays for the tracer to chew on, few enough to stay in the cache and to stop soon.
-constexpr std::uint32_t batch_size = 512;
-
-// Where a sample goes: a pixel of the tile, and the sign of its weight there.
-struct Place {
-  int x, y;
-  bool is_negative;
-};
 
 PixelRect picture_rect(const RenderSettings& settings) {
   const PixelRect border{settings.border_x, settings.border_y, settings.border_width, settings.border_height};
@@ -36,25 +27,42 @@ PixelRect picture_rect(const RenderSettings& settings) {
           border.height > 0 ? border.height : settings.height - border.y};
 }
 
+// Where sampling is adaptive, tiles begin where blocks of pixels do: the same blocks whatever the size.
+int usable_tile_size(const RenderSettings& settings, int tile_size) {
+  constexpr int block = NoiseMap::block_size;
+  return settings.adaptive_threshold > 0 ? (tile_size + block - 1) / block * block : tile_size;
+}
+
+// A tile that several threads may work on, one after another.
+struct SharedTile {
+  std::mutex mutex;
+  std::optional<TileRender> render;
+};
+
 }  // namespace
 
 struct Session::State {
   PreparedScene scene;
   SessionOptions options;
   PixelFilter filter;
+  SamplePlan plan;
   PixelRect rect;
   std::vector<PixelRect> tiles;
-  std::uint64_t sample_count;
+  std::uint64_t pixel_count;
+  std::vector<SharedTile> shared_tiles;  // for a picture with a time limit
   Clock::time_point begin = Clock::now();
 
   std::atomic<bool> stop = false;
-  std::atomic<std::size_t> next_tile = 0;
+  std::atomic<bool> is_time_up = false;
+  std::atomic<std::size_t> next_turn = 0;
   std::atomic<std::uint64_t> samples_done = 0;
+  std::atomic<std::uint64_t> samples_spared = 0;  // that adaptive sampling found not to be needed
+  std::atomic<int> threads_at_work;
 
   std::mutex mutex;  // guards what follows
   std::condition_variable changed;
   std::deque<Tile> finished;
-  std::size_t tiles_handed_out = 0;
+  std::size_t tiles_finished = 0, tiles_handed_out = 0;
   std::exception_ptr error;
   Clock::time_point end;  // when the last tile was finished
 
@@ -64,34 +72,30 @@ struct Session::State {
       : scene(std::move(scene_)),
         options(options_),
         filter(scene.settings.filter),
+        plan(plan_samples(scene.settings)),
         rect(picture_rect(scene.settings)),
-        tiles(make_tiles(rect, options.tile_size)),
-        sample_count(static_cast<std::uint64_t>(rect.width) * rect.height * scene.settings.samples) {}
+        tiles(make_tiles(rect, usable_tile_size(scene.settings, options.tile_size))),
+        pixel_count(static_cast<std::uint64_t>(rect.width) * rect.height),
+        shared_tiles(scene.settings.time_limit > 0 ? tiles.size() : 0),
+        threads_at_work(resolve_thread_count(options.threads)) {}
 
   // With the mutex held.
   [[nodiscard]] bool is_done() const { return stop || tiles_handed_out == tiles.size(); }
+  [[nodiscard]] double elapsed_seconds() const { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+  [[nodiscard]] std::uint64_t sample_count() const { return pixel_count * scene.settings.samples; }
   void work();
-  std::optional<Tile> render_tile(const PixelRect& tile, Integrator& integrator);
-  [[nodiscard]] std::optional<Ray> camera_ray(Vec2f place, Sampler& sampler) const;
+  void work_tile_by_tile(Worker& worker);
+  void work_round_by_round(Worker& worker);
+  void hand_out(Tile tile);
 };
-
-// Of any camera; it draws what that needs. Nothing where the camera sees nothing.
-std::optional<Ray> Session::State::camera_ray(Vec2f place, Sampler& sampler) const {
-  const Vec2f lens = scene.view.has_aperture() ? sampler.next_2d() : Vec2f{};
-  return scene.view.ray(place, lens);
-}
 
 void Session::State::work() {
   try {
-    const std::unique_ptr<Integrator> integrator = make_integrator(scene);
-    for (std::size_t i = next_tile++; i < tiles.size() && !stop; i = next_tile++) {
-      std::optional<Tile> tile = render_tile(tiles[i], *integrator);
-      if (!tile) break;
-      const std::lock_guard lock(mutex);
-      finished.push_back(std::move(*tile));
-      end = Clock::now();
-      changed.notify_all();
-    }
+    Worker worker(scene);
+    if (scene.settings.time_limit > 0)
+      work_round_by_round(worker);
+    else
+      work_tile_by_tile(worker);
   } catch (...) {
     const std::lock_guard lock(mutex);
     if (!error) error = std::current_exception();
@@ -100,60 +104,59 @@ void Session::State::work() {
   }
 }
 
-// Nothing when it was stopped half-way.
-std::optional<Tile> Session::State::render_tile(const PixelRect& tile, Integrator& integrator) {
-  const RenderSettings& settings = scene.settings;
-  TileAccumulator accumulator(tile, settings.passes, filter.negative_mass());
-  CameraPaths paths;
-  std::vector<Place> places;
-  std::vector<PixelSample> samples(batch_size);
-  const bool is_pinhole = scene.view.is_pinhole();
-  const PixelSample unseen{.alpha = 0};
-
-  const auto flush = [&] {
-    const std::span batch = std::span(samples).first(paths.size());
-    integrator.render(paths, batch);
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      batch[i].radiance *= settings.exposure;
-      accumulator.add(places[i].x, places[i].y, batch[i], places[i].is_negative);
-    }
-    samples_done += batch.size();
-    paths.clear();
-    places.clear();
+void Session::State::work_tile_by_tile(Worker& worker) {
+  const auto go_on = [&](std::uint64_t samples) {
+    samples_done += samples;
+    return !stop;
   };
-
-  for (int y = 0; y < tile.height; ++y) {
-    for (int x = 0; x < tile.width; ++x) {
-      const Vec2i pixel{tile.x + x, tile.y + y};
-      const Vec2f center{static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f};
-      const Sampler pixel_sampler(settings.sampler, pixel, static_cast<std::uint64_t>(settings.seed));
-      for (int sample = 0; sample < settings.samples; ++sample) {
-        Sampler sampler = pixel_sampler.at_sample(static_cast<std::uint32_t>(sample));
-        const FilterSample place = filter.sample(sampler.next_2d());
-        if (is_pinhole) {
-          append_result(paths.rays, [&] { return scene.view.ray(center + place.offset); });
-        } else if (const std::optional<Ray> ray = camera_ray(center + place.offset, sampler)) {
-          paths.rays.push_back(*ray);
-        } else {
-          accumulator.add(x, y, unseen, place.is_negative);
-          ++samples_done;
-          continue;
-        }
-        paths.samplers.push_back(sampler);
-        places.push_back({x, y, place.is_negative});
-        if (paths.size() < batch_size) continue;
-        flush();
-        if (stop) return std::nullopt;
-      }
+  for (std::size_t i = next_turn++; i < tiles.size() && !stop; i = next_turn++) {
+    TileRender tile(scene, filter, plan, tiles[i]);
+    while (!tile.is_done()) {
+      if (!tile.render_round(worker, go_on)) return;
+      samples_spared += tile.take_spared();
     }
+    hand_out(tile.finish());
   }
-  flush();
-  return accumulator.finish();
+}
+
+// Over the whole picture again and again, so that when the time is up all pixels have about as many samples. The first
+// round is always finished: a picture has no holes.
+void Session::State::work_round_by_round(Worker& worker) {
+  const std::size_t turns = tiles.size() * plan.round_ends.size();
+  const auto has_time = [&] {
+    if (elapsed_seconds() >= scene.settings.time_limit) is_time_up = true;
+    return !is_time_up;
+  };
+  for (std::size_t turn = next_turn++; turn < turns && !stop; turn = next_turn++) {
+    const bool is_first_round = turn < tiles.size();
+    if (!is_first_round && !has_time()) break;
+    const auto go_on = [&](std::uint64_t samples) {
+      samples_done += samples;
+      return !stop && (is_first_round || has_time());
+    };
+    SharedTile& tile = shared_tiles[turn % tiles.size()];
+    const std::lock_guard lock(tile.mutex);
+    if (!tile.render) tile.render.emplace(scene, filter, plan, tiles[turn % tiles.size()]);
+    if (tile.render->is_done()) continue;
+    if (!tile.render->render_round(worker, go_on)) break;
+    samples_spared += tile.render->take_spared();
+  }
+  if (--threads_at_work > 0 || stop) return;
+  if (samples_done + samples_spared == sample_count()) is_time_up = false;
+  for (const SharedTile& tile : shared_tiles) hand_out(tile.render->finish());
+}
+
+void Session::State::hand_out(Tile tile) {
+  const std::lock_guard lock(mutex);
+  finished.push_back(std::move(tile));
+  ++tiles_finished;
+  end = Clock::now();
+  changed.notify_all();
 }
 
 Session::Session(PreparedScene scene, SessionOptions options)
     : state_(std::make_unique<State>(std::move(scene), options)) {
-  const int threads = resolve_thread_count(options.threads);
+  const int threads = state_->threads_at_work;
   for (int i = 0; i < threads; ++i) state_->workers.emplace_back([state = state_.get()] { state->work(); });
 }
 
@@ -186,18 +189,26 @@ void Session::stop() {
 bool Session::is_stopped() const { return state_->stop; }
 
 Progress Session::progress() const {
+  const State& state = *state_;
   const std::lock_guard lock(state_->mutex);
-  const std::uint64_t done = state_->samples_done;
-  const bool is_rendered = done == state_->sample_count;
-  const std::chrono::duration<double> elapsed = (is_rendered ? state_->end : Clock::now()) - state_->begin;
+  const auto done = static_cast<double>(state.samples_done), spared = static_cast<double>(state.samples_spared);
+  const auto count = static_cast<double>(state.sample_count()), limit = double(state.scene.settings.time_limit);
+  const bool is_rendered = state.tiles_finished == state.tiles.size();
 
   Progress progress;
-  progress.fraction = state_->sample_count ? static_cast<double>(done) / static_cast<double>(state_->sample_count) : 1;
-  progress.elapsed_seconds = std::max(elapsed.count(), 0.0);
-  if (progress.elapsed_seconds > 0) progress.samples_per_second = static_cast<double>(done) / progress.elapsed_seconds;
-  if (progress.samples_per_second > 0)
-    progress.remaining_seconds = static_cast<double>(state_->sample_count - done) / progress.samples_per_second;
-  progress.is_done = state_->is_done();
+  progress.elapsed_seconds =
+      is_rendered ? std::chrono::duration<double>(state.end - state.begin).count() : state.elapsed_seconds();
+  progress.fraction = is_rendered ? 1 : (done + spared) / count;
+  if (progress.elapsed_seconds > 0) progress.samples_per_second = done / progress.elapsed_seconds;
+  if (progress.samples_per_second > 0 && !is_rendered)
+    progress.remaining_seconds = (count - done - spared) / progress.samples_per_second;
+  if (limit > 0 && !is_rendered) {
+    progress.fraction = std::max(progress.fraction, std::min(progress.elapsed_seconds / limit, 1.0));
+    progress.remaining_seconds = std::min(progress.remaining_seconds, std::max(limit - progress.elapsed_seconds, 0.0));
+  }
+  progress.samples_per_pixel = done / static_cast<double>(state.pixel_count);
+  progress.is_time_up = state.is_time_up;
+  progress.is_done = state.is_done();
   return progress;
 }
 

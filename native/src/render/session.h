@@ -17,15 +17,17 @@ struct SessionOptions {
 };
 
 struct Progress {
-  double fraction = 0;  // of all samples, never falls
+  double fraction = 0;  // of all samples, or of the time there is for them; never falls
   double samples_per_second = 0;
   double elapsed_seconds = 0;
   double remaining_seconds = 0;  // a guess from the rate so far
+  double samples_per_pixel = 0;  // the mean of those taken so far
+  bool is_time_up = false;       // the time limit ended it before all samples were taken
   bool is_done = false;          // every tile was handed out, or it was stopped
 };
 
 // Owns the scene. Threads start at once and end with the session. The same scene gives the same values at any number of threads and
-// any tile size.
+// any tile size, unless a time limit decides how many samples there are.
 class Session {
  public:
   explicit Session(PreparedScene scene, SessionOptions options = {});

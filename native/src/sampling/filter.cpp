@@ -13,9 +13,9 @@ namespace {
 // Enough that the table differs from the filter by less than 1e-5 of its peak.
 constexpr int cell_count = 512;
 
-double gaussian(double x, double radius) {
-  constexpr double alpha = 2;  // per square pixel, as in the assignment; less its value at the radius: no step there
-  return std::exp(-alpha * x * x) - std::exp(-alpha * radius * radius);
+// Less its value at the radius: no step there.
+double gaussian(double x, double radius, double falloff) {
+  return std::exp(-falloff * x * x) - std::exp(-falloff * radius * radius);
 }
 
 // Harris 1978, "On the use of windows for harmonic analysis", the four-term window; Blender's default filter.
@@ -41,7 +41,7 @@ double eval_filter(const FilterSettings& settings, double x) {
     case FilterKind::tent:
       return 1 - std::abs(x) / radius;
     case FilterKind::gaussian:
-      return gaussian(x, radius);
+      return gaussian(x, radius, settings.falloff);
     case FilterKind::blackman_harris:
       return blackman_harris(x, radius);
     case FilterKind::mitchell:

@@ -20,10 +20,13 @@ inline constexpr std::array enum_names<FilterKind> =
 struct FilterSettings {
   FilterKind kind = FilterKind::box;
   float radius = 0.5f;
+  float falloff = 2;  // gaussian: exp(-falloff x^2); 2 is the assignment's
 
   static constexpr auto fields() {
-    return std::tuple{field("type", &FilterSettings::kind, "the filter's shape"),
-                      field("radius", &FilterSettings::radius, "half of its width, in pixels", above(0))};
+    return std::tuple{
+        field("type", &FilterSettings::kind, "the filter's shape"),
+        field("radius", &FilterSettings::radius, "half of its width, in pixels", above(0)),
+        field("falloff", &FilterSettings::falloff, "of gaussian: exp(-falloff * x^2), x in pixels", above(0))};
   }
 };
 

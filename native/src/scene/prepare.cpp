@@ -34,11 +34,17 @@ std::size_t triangle_count(const Shape& shape) {
   return mesh ? mesh->triangles.size() : 0;
 }
 
+// Of all its trees.
+std::size_t tree_triangle_count(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return triangle_count(shape) * (mesh && mesh->is_deforming() ? mesh->motion_intervals() : 1);
+}
+
 // Large shapes one by one with all threads, then the small ones side by side.
 void build_trees(const std::vector<Shape>& shapes, const std::vector<std::uint32_t>& to_build, const BvhConfig& config,
                  std::vector<ShapeTree>& trees) {
   if (config.progress)
-    for (const std::uint32_t i : to_build) config.progress->expect(build_work(triangle_count(shapes[i])));
+    for (const std::uint32_t i : to_build) config.progress->expect(build_work(tree_triangle_count(shapes[i])));
   std::vector<std::uint32_t> small;
   for (const std::uint32_t i : to_build) {
     if (triangle_count(shapes[i]) < large_mesh)
@@ -108,12 +114,32 @@ std::vector<std::uint32_t> resolve_materials(const Instance& instance, std::uint
   return slots;
 }
 
+// All keys, or none.
+std::vector<TransformD> motion_of(const Instance& instance) {
+  std::vector<TransformD> keys;
+  if (instance.motion_transforms.empty()) return keys;
+  keys.emplace_back(instance.object_to_world);
+  for (const Transform& key : instance.motion_transforms) keys.emplace_back(key);
+  return keys;
+}
+
+std::uint32_t traced_visibility(const Instance& instance) {
+  return instance.is_shadow_catcher ? instance.visibility | ray_catcher : instance.visibility & ~ray_catcher;
+}
+
+// None where the surface is as smooth as its normals.
+float shadow_terminator_offset(const Scene& scene, const Instance& instance) {
+  const auto* mesh = std::get_if<Mesh>(&scene.shapes[instance.shape]);
+  return mesh && !mesh->corner_normals.empty() ? instance.shadow_terminator_offset : 0;
+}
+
 std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::uint32_t index) {
   const PreparedScene::PreparedInstance& instance = scene.instances[index];
   EmissiveInstance result{.instance = index,
                           .shape = &scene.shapes[instance.shape],
                           .object_to_world = instance.placement.object_to_world,
                           .world_to_object = instance.placement.world_to_object,
+                          .motion = instance.motion,
                           .front = {},
                           .back = {}};
   bool shines = false;
@@ -133,7 +159,11 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   validate(scene);
 
   PreparedScene prepared;
-  prepared.view = CameraView(*scene.camera, {scene.settings.width, scene.settings.height});
+  const Vec2i film_size{scene.settings.width, scene.settings.height};
+  prepared.view = CameraView(*scene.camera, film_size);
+  prepared.moving_camera = MovingCamera(*scene.camera, film_size);
+  prepared.has_motion = prepared.moving_camera.is_moving();
+  prepared.shutter = Shutter(scene.settings.shutter_curve);
   prepared.settings = scene.settings;
   prepared.textures = scene.textures;
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
@@ -150,14 +180,22 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     const auto default_index = static_cast<std::uint32_t>(prepared.materials.size() - 1);
     prepared.instances.push_back({.shape = instance.shape.index,
                                   .placement = placement,
-                                  .materials = resolve_materials(instance, default_index)});
+                                  .motion = motion_of(instance),
+                                  .materials = resolve_materials(instance, default_index),
+                                  .is_holdout = instance.is_holdout,
+                                  .is_shadow_catcher = instance.is_shadow_catcher,
+                                  .shadow_terminator_offset = shadow_terminator_offset(scene, instance)});
     PreparedScene::PreparedInstance& added = prepared.instances.back();
     for (const std::uint32_t material : added.materials)
       added.needs_derivatives = added.needs_derivatives || needs_derivatives(prepared.materials[material].material);
     traced.push_back({.shape = instance.shape.index,
                       .object_to_world = placement.object_to_world,
                       .world_to_object = placement.world_to_object,
-                      .visibility = instance.visibility});
+                      .visibility = traced_visibility(instance),
+                      .motion = added.motion});
+    const auto* mesh = std::get_if<Mesh>(&prepared.shapes[instance.shape.index]);
+    prepared.has_motion = prepared.has_motion || !added.motion.empty() || (mesh && mesh->is_deforming());
+    prepared.has_shadow_catchers = prepared.has_shadow_catchers || instance.is_shadow_catcher;
   }
   for (const PreparedMaterial& prepared_material : prepared.materials)
     prepared.has_transparency = prepared.has_transparency || is_transparent(prepared_material.material);
@@ -168,7 +206,8 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   std::vector<EmissiveInstance> emitters;
   for (std::uint32_t i = 0; i < prepared.instances.size(); ++i)
     if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i)) emitters.push_back(std::move(*emitter));
-  prepared.lights = LightSet(std::move(lamps), std::move(emitters), scene.environment, prepared.tracer.bounds());
+  prepared.lights = LightSet(std::move(lamps), std::move(emitters),
+                             EnvironmentSampler(scene.environment, options.threads), prepared.tracer.bounds());
   return prepared;
 }
 

@@ -12,6 +12,7 @@
 #include "bvh/tracer.h"
 #include "geometry/placement.h"
 #include "light/light_set.h"
+#include "sampling/shutter.h"
 #include "scene/scene.h"
 
 namespace basicrt {
@@ -21,11 +22,17 @@ struct PreparedScene {
   struct PreparedInstance {
     std::uint32_t shape = 0;
     Placement placement;
+    std::vector<TransformD> motion;        // object to world over time, instead of the placement; none: it stands still
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
     bool needs_derivatives = false;        // one of the materials does
+    bool is_holdout = false;
+    bool is_shadow_catcher = false;
+    float shadow_terminator_offset = 0;
   };
 
-  CameraView view;
+  CameraView view;             // of a camera that stands still
+  MovingCamera moving_camera;  // of one that moves
+  Shutter shutter;             // for what moves
   RenderSettings settings;
   std::vector<Shape> shapes;
   std::vector<std::uint64_t> shape_revisions;
@@ -35,6 +42,8 @@ struct PreparedScene {
   Tracer tracer;
   LightSet lights;
   bool has_transparency = false;  // shadow rays must look at what they hit
+  bool has_motion = false;        // rays have a time
+  bool has_shadow_catchers = false;
 
   [[nodiscard]] const PreparedMaterial& material_of(const SurfacePoint& point) const {
     const std::vector<std::uint32_t>& slots = instances[point.instance].materials;

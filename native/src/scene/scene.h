@@ -25,6 +25,12 @@ struct Instance {
   Transform object_to_world;
   std::vector<Id<Material>> materials;
   std::uint32_t visibility = ray_all;  // RayKind bits
+  // Object to world at further times: equally spaced, `object_to_world` being of time 0, the last of time 1. Between
+  // two of them matrices are linear.
+  std::vector<Transform> motion_transforms;
+  bool is_holdout = false;             // a hole in the picture, for camera rays
+  bool is_shadow_catcher = false;      // the camera sees through it, to where it darkens by others' shadows
+  float shadow_terminator_offset = 0;  // see shadow_terminator.h, in [0, 1]
 };
 
 struct Scene {

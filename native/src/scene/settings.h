@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "base/describe.h"
 #include "bvh/bvh.h"
@@ -30,18 +31,29 @@ struct RenderSettings {
   // The rectangle to render, in pixels, (0, 0) at the lower left; of no size: all of it. Tiles' coordinates are the
   // whole picture's.
   int border_x = 0, border_y = 0, border_width = 0, border_height = 0;
-  int samples = 64;
+  int samples = 64;              // where sampling is adaptive or the time is limited, the most
+  float adaptive_threshold = 0;  // the noise at which a pixel has enough samples; 0 gives all pixels all
+  int adaptive_min_samples = 0;  // before that is asked; 0 chooses by the threshold
+  float time_limit = 0;          // seconds after which no more samples are started; 0 is none
   std::int64_t seed = 0;
   SamplerKind sampler = SamplerKind::sobol;
   FilterSettings filter;
   PassLayout passes;
   bool is_film_transparent = false;
-  float exposure = 1;  // multiplies radiance
+  bool is_glass_transparent = false;         // and what is seen of the background through glass is so too
+  float transparent_glass_roughness = 0.1f;  // of the roughest such glass
+  float exposure = 1;                        // multiplies radiance
+  // How far the shutter is open at equally spaced times from 0 to 1, linear between them; none: wide open throughout.
+  std::vector<float> shutter_curve;
 
   IntegratorKind integrator = IntegratorKind::path;
   // Path: scatterings of each kind after which a path ends, counted as Blender does.
   int max_bounces = 12, diffuse_bounces = 4, glossy_bounces = 4, transmission_bounces = 12, transparent_bounces = 8;
-  float roulette_threshold = 1;  // paths with less throughput than this are ended by chance
+  float roulette_threshold = 0.5f;  // paths with less throughput than this are ended by chance
+  float light_threshold = 0;        // light samples that would add less than this are left out by chance; 0 is none
+  float clamp_direct = 0, clamp_indirect = 0;  // the most that a path adds, as the mean of r, g and b; 0 is none
+  float blur_glossy = 0;                       // see PathIntegrator::soften; 0 is none
+  bool has_reflective_caustics = true, has_refractive_caustics = true;
   // Intersection test: the assignment's integrator with one point light.
   Vec3f point_light_position{0, 0, 0};
   Color point_light_flux{1.0f};
@@ -58,11 +70,24 @@ struct RenderSettings {
         field("border_y", &S::border_y, "lower edge of the rectangle to render, pixels", at_least(0)),
         field("border_width", &S::border_width, "pixels; 0 is the whole width", at_least(0)),
         field("border_height", &S::border_height, "pixels; 0 is the whole height", at_least(0)),
-        field("samples", &S::samples, "paths for each pixel", within(1, 1 << 24)),
+        field("samples", &S::samples, "paths for each pixel, the most where sampling is adaptive or time limited",
+              within(1, 1 << 24)),
+        field("adaptive_threshold", &S::adaptive_threshold,
+              "the noise at which a pixel has enough samples; 0 gives every pixel all samples", within(0, 1)),
+        field("adaptive_min_samples", &S::adaptive_min_samples,
+              "samples before the noise is looked at; 0 chooses by the threshold", within(0, 1 << 24)),
+        field("time_limit", &S::time_limit, "seconds after which no more samples are started; 0 is no limit",
+              at_least(0)),
         field("seed", &S::seed, "another seed, other noise"),
         field("sampler", &S::sampler, "how a pixel's samples are spread: evenly, or each by chance"),
         field("film_transparent", &S::is_film_transparent, "the background has alpha 0"),
+        field("film_transparent_glass", &S::is_glass_transparent,
+              "where the film is transparent, so is the background seen through glass"),
+        field("film_transparent_roughness", &S::transparent_glass_roughness,
+              "the largest alpha of microfacets that counts as such glass", within(0, 1)),
         field("exposure", &S::exposure, "multiplies radiance", at_least(0)),
+        field("shutter_curve", &S::shutter_curve,
+              "how far the shutter is open at equally spaced times; none: wide open throughout", at_least(0)),
         field("integrator", &S::integrator, "how light is computed"),
         field("max_bounces", &S::max_bounces, "scatterings after which a path ends", within(0, 1024)),
         field("diffuse_bounces", &S::diffuse_bounces, "diffuse reflections after which a path ends", within(0, 1024)),
@@ -72,6 +97,17 @@ struct RenderSettings {
         field("transparent_bounces", &S::transparent_bounces, "transparent surfaces after which a ray ends",
               within(0, 1024)),
         field("rr_threshold", &S::roulette_threshold, "throughput under which Russian roulette begins", within(0, 1)),
+        field("light_threshold", &S::light_threshold,
+              "light samples that would add less than this are left out by chance, which changes no mean",
+              within(0, 1)),
+        field("clamp_direct", &S::clamp_direct,
+              "the most light that a path adds from lights it meets at once; 0 is no limit", at_least(0)),
+        field("clamp_indirect", &S::clamp_indirect,
+              "the most light that a path adds after more scatterings; 0 is no limit", at_least(0)),
+        field("blur_glossy", &S::blur_glossy, "roughens what paths meet after a blurred scattering; 0 is none",
+              within(0, 10)),
+        field("caustics_reflective", &S::has_reflective_caustics, "glossy reflection after a diffuse one"),
+        field("caustics_refractive", &S::has_refractive_caustics, "transmission after a diffuse reflection"),
         field("point_light_position", &S::point_light_position, "intersection_test: the light, world space"),
         field("point_light_flux", &S::point_light_flux, "intersection_test: watts", at_least(0)),
         field("max_depth", &S::max_depth, "intersection_test: surfaces that a path may meet", within(1, 1024)),

@@ -16,7 +16,7 @@ namespace {
 // Beyond it, squares and products of lengths leave the range of floats.
 constexpr float largest_coordinate = 1e15f;
 
-std::string entry(const char* table, std::size_t index) {
+std::string entry(std::string_view table, std::size_t index) {
   return std::string(table) + "[" + std::to_string(index) + "]";
 }
 
@@ -44,7 +44,11 @@ template <Described Struct>
 void validate_described(const Struct& object, const std::string& item) {
   validate_fields(object, item);
   for_each_field<Struct>([&]<class Value>(const Field<Struct, Value>& field) {
-    if constexpr (std::same_as<Value, Transform>) validate_transform(object.*field.member, join_path(item, field.name));
+    const Value& value = object.*field.member;
+    if constexpr (std::same_as<Value, Transform>) validate_transform(value, join_path(item, field.name));
+    if constexpr (std::same_as<Value, std::vector<Transform>>)
+      for (std::size_t i = 0; i < value.size(); ++i)
+        validate_transform(value[i], join_path(item, entry(field.name, i)));
   });
 }
 
@@ -52,10 +56,10 @@ void validate_image(const Image& image, const std::string& item) {
   if (image.width < 1 || image.height < 1) throw SceneError(item, "the image has no pixels");
   if (image.channels < 1 || image.channels > 4)
     throw SceneError(item, "an image must have 1 to 4 channels, has " + std::to_string(image.channels));
-  const std::size_t expected = static_cast<std::size_t>(image.width) * image.height * image.channels;
-  if (image.pixels.size() != expected)
+  const std::size_t expected = image.offset(0, image.height), numbers = image.pixels.size() + image.bytes.size();
+  if (numbers != expected || (!image.pixels.empty() && !image.bytes.empty()))
     throw SceneError(item, "width, height and channels make " + std::to_string(expected) + " numbers, but there are " +
-                               std::to_string(image.pixels.size()));
+                               std::to_string(numbers));
   for (const float number : image.pixels)
     if (!std::isfinite(number)) throw SceneError(item, "a pixel is " + number_text(number));
 }
@@ -63,8 +67,19 @@ void validate_image(const Image& image, const std::string& item) {
 void validate_textures(const Scene& scene) {
   for (std::uint32_t i = 0; i < scene.textures.size(); ++i) {
     const std::string item = entry("textures", i);
-    std::visit([&](const auto& texture) { validate_described(texture, item); }, scene.textures[i]);
+    // Not that transforms have inverses: images may be flattened.
+    std::visit([&](const auto& texture) { validate_fields(texture, item); }, scene.textures[i]);
     if (const auto* image = std::get_if<ImageTexture>(&scene.textures[i])) validate_image(image->image, item);
+  }
+}
+
+void validate_environment(const Environment& environment) {
+  validate_fields(environment, "environment");
+  for (std::size_t i = 0; i < environment.layers.size(); ++i) {
+    const EnvironmentLayer& layer = environment.layers[i];
+    const std::string item = "environment." + entry("layers", i);
+    validate_fields(layer, item);
+    if (!layer.image.is_empty()) validate_image(layer.image, item + ".image");
   }
 }
 
@@ -74,7 +89,7 @@ void validate_shader(const Scene& scene, const Shader& shader, NodeIndex index, 
   validate_described(shader, item);
   for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
     const Value& value = shader.*field.member;
-    if constexpr (std::same_as<Value, ColorInput>) {
+    if constexpr (std::same_as<Value, ColorInput> || std::same_as<Value, ShareInput>) {
       if (value.texture.is_valid()) validate_id(value.texture, scene.textures, join_path(item, field.name), "textures");
     } else if constexpr (std::same_as<Value, NodeIndex>) {
       if (value != no_node && value >= index)
@@ -126,8 +141,14 @@ void validate_instances(const Scene& scene) {
     for (std::size_t slot = 0; slot < instance.materials.size(); ++slot)
       if (const Id<Material> id = instance.materials[slot]; id.is_valid())
         validate_id(id, scene.materials, item + "." + entry("materials", slot), "materials");
+    const Bounds3f& local = shape_bounds[instance.shape.index];
+    validate_field(instance.shadow_terminator_offset, within(0, 1), item, "shadow_terminator_offset");
     validate_transform(instance.object_to_world, item + ".transform");
-    validate_reach(transform_bounds(instance.object_to_world, shape_bounds[instance.shape.index]), item);
+    validate_reach(transform_bounds(instance.object_to_world, local), item);
+    for (std::size_t key = 0; key < instance.motion_transforms.size(); ++key) {
+      validate_transform(instance.motion_transforms[key], item + "." + entry("motion_transforms", key));
+      validate_reach(transform_bounds(instance.motion_transforms[key], local), item);
+    }
   }
 }
 
@@ -138,7 +159,7 @@ void validate_lights(const Scene& scene) {
     const auto* sun = std::get_if<SunLight>(&scene.lights[i]);
     if (sun && length_squared(Vec3d(sun->direction)) == 0) throw SceneError(item + ".direction", "must not be zero");
   }
-  validate_described(scene.environment, "environment");
+  validate_environment(scene.environment);
 }
 
 template <class CameraKind>
@@ -161,10 +182,18 @@ void validate_border(const RenderSettings& settings) {
   check("border_height", settings.border_y, settings.border_height, settings.height);
 }
 
+void validate_shutter_curve(const std::vector<float>& curve) {
+  if (curve.size() == 1) throw SceneError("settings.shutter_curve", "must have at least two numbers or none, has 1");
+  const auto is_zero = [](float open) { return open == 0; };
+  if (!curve.empty() && std::ranges::all_of(curve, is_zero))
+    throw SceneError("settings.shutter_curve", "must not be 0 throughout: the shutter would never open");
+}
+
 void validate_settings(const RenderSettings& settings) {
   validate_described(settings, "settings");
   validate_described(settings.filter, "settings.filter");
   validate_border(settings);
+  validate_shutter_curve(settings.shutter_curve);
   if (settings.passes.mask >> passes.size()) throw SceneError("settings.passes", "names a pass that does not exist");
   if (!settings.passes.has(Pass::combined)) throw SceneError("settings.passes", "Combined must be among them");
 }

@@ -31,6 +31,21 @@ constexpr void for_each_number(const ColorInput& input, Visitor&& visit) {
   for_each_number(input.constant, visit);
 }
 
+// A number in [0, 1] that may vary over the surface: a texture's luminance or alpha, or the constant.
+struct ShareInput {
+  float constant = 1;
+  Id<Texture> texture{};
+  bool is_alpha = false;
+
+  ShareInput() = default;
+  ShareInput(float share) : constant(share) {}  // NOLINT: a number is an input
+};
+
+template <class Visitor>
+constexpr void for_each_number(const ShareInput& input, Visitor&& visit) {
+  visit(input.constant);
+}
+
 // The index of a node in Material::nodes.
 using NodeIndex = std::uint32_t;
 inline constexpr NodeIndex no_node = ~0u;
@@ -132,21 +147,30 @@ struct TransparentShader {
 };
 
 struct EmissionShader {
-  Color radiance{1.0f};
+  ColorInput radiance{Color(1.0f)};
   bool is_two_sided = true;
+  float strength = 1;
   static constexpr std::string_view kind = "emission";
   static constexpr auto fields() {
     return std::tuple{field("radiance", &EmissionShader::radiance, "W / (m^2 sr), each direction alike", at_least(0)),
-                      field("twosided", &EmissionShader::is_two_sided, "whether the back emits too")};
+                      field("twosided", &EmissionShader::is_two_sided, "whether the back emits too"),
+                      field("strength", &EmissionShader::strength, "multiplies the radiance", at_least(0))};
   }
+};
+
+// A hole in the picture for what the camera sees, black for all else.
+struct HoldoutShader {
+  static constexpr std::string_view kind = "holdout";
+  static constexpr auto fields() { return std::tuple{}; }
 };
 
 // Blender's Principled BSDF with constant values: the sockets that change an ordinary opaque, metal or glass surface.
 struct PrincipledShader {
   ColorInput base_color;
   float metallic = 0, roughness = 0.5f, ior = 1.5f, transmission = 0, specular_ior_level = 0.5f;
-  Color emission{0.0f};
-  float alpha = 1;
+  ColorInput emission{Color(0.0f)};
+  float emission_strength = 1;
+  ShareInput alpha = 1.0f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
   static constexpr std::string_view kind = "principled";
   static constexpr auto fields() {
@@ -160,13 +184,14 @@ struct PrincipledShader {
         field("specular_ior_level", &PrincipledShader::specular_ior_level,
               "0.5 leaves the index's reflectance as it is", within(0, 1)),
         field("emission", &PrincipledShader::emission, "W / (m^2 sr), both sides", at_least(0)),
+        field("emission_strength", &PrincipledShader::emission_strength, "multiplies the emission", at_least(0)),
         field("alpha", &PrincipledShader::alpha, "opacity", within(0, 1)),
         field("distribution", &PrincipledShader::distribution, facet_distribution_doc)};
   }
 };
 
 struct MixShader {
-  float factor = 0.5f;
+  ShareInput factor = 0.5f;
   NodeIndex first = no_node, second = no_node;
   static constexpr std::string_view kind = "mix";
   static constexpr auto fields() {
@@ -185,8 +210,9 @@ struct AddShader {
   }
 };
 
-using ShaderNode = std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader,
-                                TransparentShader, EmissionShader, PrincipledShader, MixShader, AddShader>;
+using ShaderNode =
+    std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader, TransparentShader,
+                 EmissionShader, HoldoutShader, PrincipledShader, MixShader, AddShader>;
 
 // A node refers only to nodes before it, so there is no cycle. A Mix or Add input of no_node is black and opaque,
 // as an empty socket is in Blender.

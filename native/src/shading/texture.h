@@ -7,8 +7,9 @@
 #include <variant>
 
 #include "base/describe.h"
-#include "image/image.h"
+#include "image/image_lookup.h"
 #include "math/color.h"
+#include "math/transform.h"
 
 namespace basicrt {
 
@@ -31,15 +32,25 @@ struct CheckerboardTexture {
   }
 };
 
-// Bilinear, repeated.
 struct ImageTexture {
   Image image;
+  ImageInterpolation interpolation = ImageInterpolation::linear;
+  ImageExtension extension = ImageExtension::repeat;
+  Transform uv_to_image;             // of (u, v, 0); may flatten
+  bool is_divided_by_alpha = false;  // where the image's colour is multiplied by its alpha
   static constexpr std::string_view kind = "image";
-  static constexpr auto fields() { return std::tuple{}; }
+  static constexpr auto fields() {
+    return std::tuple{field("interpolation", &ImageTexture::interpolation, "between pixels: linear, closest or cubic"),
+                      field("extension", &ImageTexture::extension, "beyond the edges: repeat, extend, clip or mirror"),
+                      field("uv_transform", &ImageTexture::uv_to_image, "of (u, v, 0), before the image is looked up"),
+                      field("divide_by_alpha", &ImageTexture::is_divided_by_alpha,
+                            "divides the colour by alpha, where the image's is multiplied by it")};
+  }
 };
 
 using Texture = std::variant<ConstantTexture, CheckerboardTexture, ImageTexture>;
 
-[[nodiscard]] Color eval_texture(const Texture& texture, Vec2f uv);
+// Colours are at least 0; only images have an alpha.
+[[nodiscard]] Rgba eval_texture(const Texture& texture, Vec2f uv);
 
 }  // namespace basicrt

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What every kernel must hold: no ray slips between triangles, and none is hit by the triangle that it leaves.
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <numbers>
+#include <string>
 
 #include "bvh/kernels/chosen_kernel.h"
+#include "bvh/kernels/scratch.h"
+#include "bvh/node_order.h"
 #include "bvh/test_scenes.h"
+#include "bvh/tree_access.h"
 #include "geometry/surface_point.h"
 
 namespace basicrt {
@@ -36,20 +42,64 @@ Mesh closed_sphere(Vec3f center, float radius, std::uint32_t slices, std::uint32
   return mesh;
 }
 
-// From a point towards corners, edges and just beside edges.
-std::vector<Ray> rays_at_borders(test::Random& rng, const Mesh& mesh, Vec3f origin, int count) {
+// A cube of [-1, 1]^3 around `center`, each face a grid. Closed: points on the cube's edges are the same from both faces.
+Mesh closed_box(Vec3f center, std::uint32_t cells) {
+  Mesh mesh;
+  const Mesh face = test::flat_grid(cells);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const float side : {-1.0f, 1.0f}) {
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      for (const Vec3f& p : face.positions) {
+        Vec3f position;
+        position[axis] = side;
+        position[(axis + 1) % 3] = p.x;
+        position[(axis + 2) % 3] = p.y;
+        mesh.positions.push_back(center + position);
+      }
+      for (const auto& [i, j, k] : face.triangles) mesh.triangles.push_back({first + i, first + j, first + k});
+    }
+  return mesh;
+}
+
+// From a point towards corners, edges, just beside edges and insides.
+std::vector<Ray> rays_from_inside(test::Random& rng, const Mesh& mesh, Vec3f origin, int count) {
   std::vector<Ray> rays;
   std::uniform_int_distribution<std::size_t> pick(0, mesh.triangles.size() - 1);
   for (int i = 0; i < count; ++i) {
     const auto triangle = static_cast<std::uint32_t>(pick(rng));
     const Vec3f a = mesh.position(triangle, 0), b = mesh.position(triangle, 1), c = mesh.position(triangle, 2);
     Vec3f target = a;
-    if (i % 4 == 1) target = (a + b) * 0.5f;
-    if (i % 4 == 2) target = a + (b - a) * test::uniform(rng, 0, 1);
-    if (i % 4 == 3) target = a + (b - a) * test::uniform(rng, 0, 1) + (c - a) * test::uniform(rng, 0, 1e-4f);
+    if (i % 5 == 1) target = (a + b) * 0.5f;
+    if (i % 5 == 2) target = a + (b - a) * test::uniform(rng, 0, 1);
+    if (i % 5 == 3) target = a + (b - a) * test::uniform(rng, 0, 1) + (c - a) * test::uniform(rng, 0, 1e-4f);
+    if (i % 5 == 4) target = a + (b - a) * test::uniform(rng, 0, 0.5f) + (c - a) * test::uniform(rng, 0, 0.5f);
     rays.push_back({.origin = origin, .direction = target - origin});
   }
   return rays;
+}
+
+// Along the axes from inside a box of grids, through corners and along the lines of the grids that they meet.
+std::vector<Ray> rays_along_axes(test::Random& rng, Vec3f center, std::uint32_t cells, int count) {
+  std::vector<Ray> rays;
+  std::uniform_int_distribution<std::uint32_t> line(0, cells);
+  const auto on_a_line = [&] { return 2 * static_cast<float>(line(rng)) / static_cast<float>(cells) - 1; };
+  for (int i = 0; i < count; ++i) {
+    const auto axis = static_cast<std::size_t>(i % 3);
+    Vec3f origin;
+    origin[axis] = test::uniform(rng, -0.9f, 0.9f);
+    origin[(axis + 1) % 3] = on_a_line();
+    origin[(axis + 2) % 3] = i % 2 == 0 ? on_a_line() : test::uniform(rng, -1, 1);
+    Ray ray{.origin = center + origin, .direction = {0, 0, 0}};
+    ray.direction[axis] = i % 4 < 2 ? 1.0f : -1.0f;
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+// How many rays each kernel is given below: BASICRT_LEAK_RAYS, or as many as take about a second.
+int leak_ray_count() {
+  const char* count = std::getenv("BASICRT_LEAK_RAYS");
+  return count == nullptr ? 500000 : std::atoi(count);
 }
 
 class EveryKernel : public testing::TestWithParam<const char*> {
@@ -63,15 +113,18 @@ class EveryKernel : public testing::TestWithParam<const char*> {
     tracer.use(*kernel_);
     return tracer;
   }
-  void expect_no_leak(const Mesh& mesh, const std::vector<Ray>& rays, const TransformD& transform = {}) const {
-    const Tracer tracer = make_tracer({mesh}, {test::place(0, transform)});
+  void expect_no_leak(const Mesh& mesh, const std::vector<Ray>& rays, const TracedInstance& instance,
+                      const std::string& name) const {
+    expect_no_leak(make_tracer({mesh}, {instance}), rays, name);
+  }
+  static void expect_no_leak(const Tracer& tracer, const std::vector<Ray>& rays, const std::string& name) {
     std::vector<Hit> hits(rays.size());
     std::vector<std::uint8_t> occluded(rays.size());
     tracer.intersect(rays, hits);
     tracer.occluded(rays, occluded);
     const auto is_miss = [](const Hit& hit) { return !hit.is_hit(); };
-    EXPECT_EQ(std::count_if(hits.begin(), hits.end(), is_miss), 0);
-    EXPECT_EQ(std::count(occluded.begin(), occluded.end(), 0), 0);
+    EXPECT_EQ(std::count_if(hits.begin(), hits.end(), is_miss), 0) << name;
+    EXPECT_EQ(std::count(occluded.begin(), occluded.end(), 0), 0) << name;
   }
 
   const Kernel* kernel_ = nullptr;
@@ -80,19 +133,33 @@ class EveryKernel : public testing::TestWithParam<const char*> {
 TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh) {
   test::Random rng(1);
   struct Case {
+    std::string name;
+    Mesh mesh;
     Vec3f center;
     float radius;
-    std::uint32_t slices, rings;
   };
-  for (const auto& [center, radius, slices, rings] :
-       {Case{Vec3f(0), 1, 64, 32}, Case{Vec3f(1e4f), 1, 64, 32}, Case{Vec3f(0), 1e4f, 200, 100},
-        Case{Vec3f(0), 1, 2048, 16}, Case{Vec3f(0), 1e-6f, 64, 32}}) {
-    const Mesh mesh = closed_sphere(center, radius, slices, rings);
-    for (int i = 0; i < 4; ++i) {
+  const Vec3f far(1e4f);
+  const std::vector<Case> cases{{"sphere", closed_sphere(Vec3f(0), 1, 64, 32), Vec3f(0), 1},
+                                {"sphere far away", closed_sphere(far, 1, 64, 32), far, 1},
+                                {"large sphere", closed_sphere(Vec3f(0), 1e4f, 200, 100), Vec3f(0), 1e4f},
+                                {"tiny sphere", closed_sphere(Vec3f(0), 1e-6f, 64, 32), Vec3f(0), 1e-6f},
+                                {"slivers", closed_sphere(Vec3f(0), 1, 2048, 16), Vec3f(0), 1},
+                                {"box", closed_box(Vec3f(0), 64), Vec3f(0), 1},
+                                {"box far away", closed_box(far, 64), far, 1}};
+  constexpr int batch = 10000;
+  const int rays_of_all = batch * static_cast<int>(cases.size());
+  const int batches = (leak_ray_count() + rays_of_all - 1) / rays_of_all;
+  for (const auto& [name, mesh, center, radius] : cases) {
+    const Tracer tracer = make_tracer({mesh}, {test::place(0, {})});
+    for (int i = 0; i < batches && !HasFailure(); ++i) {
+      const bool is_along_axes = name.starts_with("box") && i % 2 == 0;
       const Vec3f origin = center + test::random_point(rng, 0.4f) * (i == 0 ? 0 : radius);
-      expect_no_leak(mesh, rays_at_borders(rng, mesh, origin, 20000));
+      const std::vector<Ray> rays =
+          is_along_axes ? rays_along_axes(rng, center, 64, batch) : rays_from_inside(rng, mesh, origin, batch);
+      expect_no_leak(tracer, rays, name + ", batch " + std::to_string(i));
     }
   }
+  RecordProperty("rays", batches * rays_of_all);
 }
 
 TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_under_a_transform) {
@@ -100,25 +167,61 @@ TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_under_a_transform) {
   const Mesh mesh = closed_sphere(Vec3f(0), 1, 64, 32);
   for (int i = 0; i < 8; ++i) {
     const TransformD transform = test::random_transform(rng);
-    std::vector<Ray> rays = rays_at_borders(rng, mesh, Vec3f(0), 5000);
+    std::vector<Ray> rays = rays_from_inside(rng, mesh, Vec3f(0), 5000);
     for (Ray& ray : rays) {
       ray.origin = Vec3f(transform.point(Vec3d(ray.origin)));
       ray.direction = Vec3f(transform.vector(Vec3d(ray.direction)));
     }
-    expect_no_leak(mesh, rays, transform);
+    expect_no_leak(make_tracer({mesh}, {test::place(0, transform)}), rays, "transform " + std::to_string(i));
   }
 }
 
-TEST_P(EveryKernel, rays_along_the_axes_hit_corners_and_edges_of_a_grid) {
-  const Mesh grid = test::flat_grid(64);
-  std::vector<Ray> rays;
-  for (int y = -31; y < 32; ++y)
-    for (int x = -31; x < 32; ++x)
-      for (const float shift : {0.0f, 0.3f / 32, 0.5f / 32})
-        for (const float direction : {-1.0f, 1.0f})
-          rays.push_back({.origin = {static_cast<float>(x) / 32 + shift, static_cast<float>(y) / 32, -2 * direction},
-                          .direction = {0, 0, direction}});
-  expect_no_leak(grid, rays);
+// A sphere that grows, is stretched and bent, and flies off by each of the shifts in turn.
+Mesh deforming_sphere(std::initializer_list<float> shifts) {
+  const Mesh sphere = closed_sphere(Vec3f(0), 1, 64, 32);
+  Mesh mesh = sphere;
+  for (const float shift : shifts) {
+    std::vector<Vec3f>& positions = mesh.motion_positions.emplace_back(sphere.positions);
+    for (Vec3f& p : positions) p = {2 * p.x + shift, p.y + 0.3f * p.x * p.x - shift, 0.5f * p.z + shift};
+  }
+  return mesh;
+}
+
+// From inside the mesh, as it is at the time.
+std::vector<Ray> rays_at_moving_borders(test::Random& rng, const Mesh& mesh, float time, int count) {
+  Mesh now = mesh;
+  for (std::uint32_t triangle = 0; triangle < now.triangles.size(); ++triangle)
+    for (int corner = 0; corner < 3; ++corner)
+      now.positions[now.triangles[triangle][corner]] = mesh.position_at(triangle, corner, time);
+  const Vec3f middle = (now.positions.front() + now.positions[now.triangles.back()[1]]) * 0.5f;  // of the poles
+  std::vector<Ray> rays = rays_from_inside(rng, now, middle, count);
+  for (Ray& ray : rays) ray.time = time;
+  return rays;
+}
+
+TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_that_deforms) {
+  test::Random rng(6);
+  const Mesh mesh = deforming_sphere({3, -100, 1e4f});
+  for (int i = 0; i < 20; ++i)
+    expect_no_leak(mesh, rays_at_moving_borders(rng, mesh, test::random_time(rng), 3000), test::place(0, {}),
+                   "time " + std::to_string(i));
+}
+
+TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_that_deforms_and_moves) {
+  test::Random rng(7);
+  const Mesh mesh = deforming_sphere({0.5f, -2});
+  for (int i = 0; i < 20; ++i) {
+    const float time = test::random_time(rng);
+    const std::vector<TransformD> keys{test::random_transform(rng), test::random_transform(rng)};
+    const TransformD transform = transform_at(keys, time);
+    if (std::abs(transform.determinant()) < 0.05) continue;  // all but flat: the origin may be rounded out of it
+    std::vector<Ray> rays = rays_at_moving_borders(rng, mesh, time, 3000);
+    for (Ray& ray : rays) {
+      ray.origin = Vec3f(transform.point(Vec3d(ray.origin)));
+      ray.direction = Vec3f(transform.vector(Vec3d(ray.direction)));
+    }
+    expect_no_leak(mesh, rays, test::place_moving(0, keys), "motion " + std::to_string(i));
+  }
 }
 
 // The ray goes on from a hit as paths do, in a direction away from the sphere: it must not meet the sphere again.
@@ -181,9 +284,15 @@ TEST_P(EveryKernel, gives_each_ray_the_same_answer_in_any_company) {
     shapes.push_back(shape);
   }
   instances.push_back(test::place(0, test::random_transform(rng)));
+  instances.push_back(test::place_moving(0, {test::random_transform(rng), test::random_transform(rng)}));
+  instances.push_back(test::place(static_cast<std::uint32_t>(shapes.size()), test::random_transform(rng)));
+  shapes.emplace_back(test::deforming(rng, test::soup(rng, 100, 0.4f), 2, 0.2f));
   const Tracer tracer = make_tracer(shapes, instances);
   std::vector<Ray> rays;
-  for (int i = 0; i < 1000; ++i) rays.push_back(test::random_ray(rng));
+  for (int i = 0; i < 1000; ++i) {
+    rays.push_back(test::random_ray(rng));
+    rays.back().time = test::random_time(rng);
+  }
   std::vector<Hit> together(rays.size());
   tracer.intersect(rays, together);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -205,9 +314,13 @@ TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone) {
     shapes.push_back(shape);
   }
   instances[3].visibility = ray_shadow;
+  instances.push_back(test::place_moving(0, {test::random_transform(rng), test::random_transform(rng)}));
+  instances.push_back(test::place_moving(2, {TransformD{}, test::random_transform(rng)}));
+  Mesh deforming = test::deforming(rng, test::flat_grid(4), 2, 0.3f);
+  const Tracer with_deforming = make_tracer({deforming, test::flat_grid(16)}, {test::place(0, {}), test::place(1, {})});
   const Tracer all_kinds = make_tracer(shapes, instances);
   const Tracer only_grid = make_tracer({test::flat_grid(16)}, {test::place(0, {})});
-  for (const Tracer* tracer : {&all_kinds, &only_grid}) {
+  for (const Tracer* tracer : {&all_kinds, &only_grid, &with_deforming}) {
     int hit_count = 0;
     for (int picture = 0; picture < 12; ++picture) {
       const Vec3f origin = test::random_point(rng, 3), target = test::random_point(rng, 0.3f);
@@ -220,6 +333,7 @@ TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone) {
         if (picture % 3 == 1) ray.direction = target - ray.origin;   // to one
         if (picture % 3 == 2)
           ray.direction = Vec3f{std::round(x) / 16, y / 16, 0} - origin;  // through corners of the grid
+        ray.time = picture % 2 == 0 ? 0.25f : test::uniform(rng, 0, 1);
         if (picture % 4 == 3) ray.t_max = 1 + test::uniform(rng, 0, 0.1f);
         rays.push_back(ray);
       }
@@ -240,6 +354,113 @@ TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone) {
     }
     EXPECT_GT(hit_count, 1000);
   }
+}
+
+// Seen from their two sides, the zero comes out with both signs.
+TEST_P(EveryKernel, gives_hits_at_the_origin_no_negative_distance) {
+  Mesh mesh = test::flat_grid(1);
+  mesh.triangles = {{0, 1, 3}, {0, 3, 1}, {0, 1, 3}, {0, 3, 1}};
+  for (const TransformD& transform : {TransformD{}, TransformD({{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}})}) {
+    const Tracer tracer = make_tracer({mesh, mesh}, {test::place(0, transform), test::place(1, {})});
+    for (const float z : {-1.0f, 1.0f}) {
+      const std::vector<Ray> rays(32, {.origin = {-0.25f, -0.5f, 0}, .direction = {0.1f, 0.2f, z}});
+      std::vector<Hit> together(rays.size()), alone(rays.size());
+      tracer.intersect(rays, together);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        tracer.intersect(std::span(&rays[i], 1), std::span(&alone[i], 1));
+        ASSERT_TRUE(alone[i].is_hit());
+        EXPECT_FALSE(std::signbit(alone[i].t));
+        EXPECT_TRUE(test::is_identical(alone[i], together[i]));
+      }
+    }
+  }
+}
+
+// An array of any size, of which only the elements that are asked for take memory.
+template <class T>
+class SparseArray {
+ public:
+  explicit SparseArray(std::size_t size)
+      : bytes_(size * sizeof(T)),
+        memory_(mmap(nullptr, bytes_, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0)) {}
+  ~SparseArray() {
+    if (is_there()) munmap(memory_, bytes_);
+  }
+  SparseArray(const SparseArray&) = delete;
+  SparseArray& operator=(const SparseArray&) = delete;
+
+  [[nodiscard]] bool is_there() const { return memory_ != MAP_FAILED; }
+  [[nodiscard]] T* data() const { return static_cast<T*>(memory_); }
+  [[nodiscard]] T& at(std::size_t index) const {
+    constexpr std::uintptr_t page = 4096;
+    const auto begin = reinterpret_cast<std::uintptr_t>(data() + index) / page * page;
+    const auto end = reinterpret_cast<std::uintptr_t>(data() + index + 1);
+    EXPECT_EQ(mprotect(reinterpret_cast<void*>(begin), end - begin, PROT_READ | PROT_WRITE), 0);
+    return data()[index];
+  }
+
+ private:
+  std::size_t bytes_;
+  void* memory_;
+};
+
+// A tree of a single node, block and instance, as far from the start of their arrays as references reach: offsets in bytes need more than 32 bits.
+TEST_P(EveryKernel, walks_trees_with_the_largest_indices) {
+  constexpr std::uint32_t last = reference_index - 2, last_instance = (1u << 29) + 7;
+  const SparseArray<TreeNode> nodes(last + 1), world_nodes(last + 1);
+  const SparseArray<TriangleBlock> blocks(last + 1);
+  const SparseArray<KernelInstance> instances(last_instance + 1);
+  if (!nodes.is_there() || !world_nodes.is_there() || !blocks.is_there() || !instances.is_there())
+    GTEST_SKIP() << "the system gives no such address space";
+
+  Mesh mesh = test::flat_grid(1);
+  mesh.triangles.push_back(mesh.triangles[0]);
+  const MeshTree small = build_mesh_tree(mesh, {});
+  ASSERT_EQ(small.blocks.size(), 1u);
+  TriangleBlock& block = blocks.at(last) = small.blocks[0];
+  for (std::uint32_t& primitive : block.primitives) primitive += 0x7FFF'FFFEu;  // on both sides of 2^31
+  const auto make_node = [](TreeReference child, const Bounds3f& box) {
+    TreeNode node{};
+    for (std::size_t i = 0; i < 8; ++i) {
+      node.children[i] = i == 0 ? child : no_reference;
+      set_child_bounds(node, i, i == 0 ? box : Bounds3f());
+    }
+    set_order(node);
+    return node;
+  };
+  nodes.at(last) = make_node(triangles_mark | last, small.tree.bounds);
+  world_nodes.at(last) = make_node(instance_mark | last_instance, small.tree.bounds);
+  KernelInstance instance{};
+  for (int i = 0; i < 3; ++i) instance.world_to_object[i][i] = 1;
+  instance.nodes = nodes.data();
+  instance.blocks = blocks.data();
+  instance.root = last;
+  instance.visibility = ray_all;
+  instance.space = KernelInstance::Space::world;
+  instance.reach = 1;
+  instance.first_merged = no_reference;
+  instances.at(last_instance) = instance;
+
+  KernelScene scene{};
+  scene.nodes = world_nodes.data();
+  scene.root = last;
+  scene.instances = instances.data();
+  std::vector<Ray> rays(40, {.origin = {0.5f, -0.25f, 2}, .direction = {0, 0, -1}});  // the first 32 may walk together
+  for (std::size_t i = 32; i < rays.size(); ++i) rays[i].direction.y = i % 2 ? 0.5f : -0.5f;
+  std::vector<Hit> hits(rays.size());
+  std::vector<std::uint8_t> occluded(rays.size());
+  void* scratch = kernel_scratch(kernel_->scratch_size);
+  kernel_->intersect(scene, rays.data(), hits.data(), rays.size(), scratch);
+  kernel_->occluded(scene, rays.data(), occluded.data(), rays.size(), scratch);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const bool is_inside = i < 32 || i % 2;  // the others leave the grid
+    EXPECT_EQ(hits[i].is_hit(), is_inside) << i;
+    EXPECT_EQ(occluded[i], is_inside) << i;
+    if (!is_inside) continue;
+    EXPECT_EQ(hits[i].t, 2) << i;
+    EXPECT_EQ(hits[i].instance, last_instance) << i;
+  }
+  EXPECT_EQ(hits[0].primitive, 0x7FFF'FFFEu);  // of triangles 0 and 2, which coincide
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryKernel, testing::Values("avx512", "avx2", "sse42", "scalar"),

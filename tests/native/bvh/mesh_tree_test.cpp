@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 
 #include "bvh/test_scenes.h"
+#include "bvh/tree_access.h"
 #include "bvh/tree_fault.h"
 
 namespace basicrt {
@@ -170,6 +172,17 @@ TEST(MeshTree, is_the_same_for_any_number_of_threads) {
   }
 }
 
+TEST(InstanceTree, is_the_same_for_any_number_of_threads) {
+  test::Random rng(24);
+  const std::vector<Bounds3f> boxes = boxes_of(test::soup(rng, 40000, 0.05f));
+  for (const BvhBuilder builder : builders) {
+    const NodeTree one = build_instance_tree(boxes, {.builder = builder, .threads = 1});
+    for (const int threads : {2, 5})
+      EXPECT_TRUE(
+          is_same_memory(one.nodes, build_instance_tree(boxes, {.builder = builder, .threads = threads}).nodes));
+  }
+}
+
 TEST(MeshTree, sah_trees_cost_less_than_median_trees) {
   test::Random rng(13);
   Mesh uneven = test::soup(rng, 2000, 0.01f);
@@ -327,6 +340,54 @@ TEST(MeshTreeFault, is_found_wherever_it_is_planted) {
     for (auto& corner : block.corners)
       for (auto& axis : corner) std::swap(axis[0], axis[1]);
   });
+}
+
+// Calls visit(block, box) for each leaf of an interval.
+template <class Visit>
+void for_each_moving_leaf(const MovingMeshTree::Interval& interval, const Visit& visit) {
+  const auto leaf = [&](TreeReference reference, const Bounds3f& box) {
+    ASSERT_EQ(reference & ~reference_index, moving_triangles_mark);
+    visit(interval.blocks[reference & reference_index], box);
+  };
+  if (interval.tree.nodes.empty() && interval.tree.root != no_reference) leaf(interval.tree.root, interval.tree.bounds);
+  for (const TreeNode& node : interval.tree.nodes)
+    for (std::size_t child = 0; child < 8; ++child)
+      if (node.children[child] != no_reference && node.children[child] >= interval.tree.nodes.size())
+        leaf(node.children[child], child_bounds(node, child));
+}
+
+TEST(MovingMeshTree, boxes_hold_their_triangles_at_every_time) {
+  test::Random rng(12);
+  for (const BvhBuilder builder : {BvhBuilder::median, BvhBuilder::binned_sah, BvhBuilder::split_sah})
+    for (const float middle : {0.0f, 1e5f}) {  // far off, interpolating rounds as much as triangles are large
+      Mesh mesh = test::soup(rng, 500, 0.1f);
+      for (Vec3f& position : mesh.positions) position += Vec3f(middle);
+      mesh = test::deforming(rng, mesh, 2, 0.5f);
+      const MovingMeshTree tree = build_moving_mesh_tree(mesh, {.builder = builder});
+      ASSERT_EQ(tree.intervals.size(), 2u);
+      for (std::uint32_t number = 0; number < 2; ++number) {
+        std::vector<int> uses(mesh.triangles.size());
+        for_each_moving_leaf(tree.intervals[number], [&](const MovingTriangleBlock& block, const Bounds3f& box) {
+          for (std::size_t lane = 0; lane < 4; ++lane)
+            if (lane == 0 || block.primitives[lane] != block.primitives[lane - 1]) ++uses[block.primitives[lane]];
+          for (int i = 0; i < 20; ++i) {
+            const float fraction = i == 0 ? 0 : i == 1 ? 1 : test::uniform(rng, 0, 1);
+            const TriangleBlock now = block_at(block, fraction);
+            for (std::size_t lane = 0; lane < 4; ++lane)
+              for (std::size_t corner = 0; corner < 3; ++corner) {
+                const Vec3f position = corner_of(now, lane, corner);
+                EXPECT_TRUE(box.contains({position, position}));
+                const float time = (static_cast<float>(number) + fraction) / 2;
+                // At the first and the last key it is where the mesh has it.
+                if (i < 2 && (number == 0) == (i == 0)) {
+                  EXPECT_EQ(position, mesh.position_at(now.primitives[lane], static_cast<int>(corner), time));
+                }
+              }
+          }
+        });
+        EXPECT_EQ(std::count(uses.begin(), uses.end(), 1), 500);
+      }
+    }
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 #include <string>
@@ -11,6 +13,7 @@
 
 #include "base/overloaded.h"
 #include "bvh/tracer.h"
+#include "geometry/motion.h"
 #include "geometry/sphere.h"
 #include "geometry/triangle.h"
 
@@ -104,6 +107,30 @@ inline TracedInstance place(std::uint32_t shape, const TransformD& object_to_wor
   return {.shape = shape, .object_to_world = object_to_world, .world_to_object = inverse(object_to_world)};
 }
 
+inline TracedInstance place_moving(std::uint32_t shape, std::vector<TransformD> keys) {
+  TracedInstance instance = place(shape, keys.front());
+  instance.motion = std::move(keys);
+  return instance;
+}
+inline TransformD world_to_object(const TracedInstance& instance, float time) {
+  return instance.motion.empty() ? instance.world_to_object : inverse(transform_at(instance.motion, time));
+}
+
+// Gives the mesh so many keys more, with its vertices anywhere near where they were.
+inline Mesh deforming(Random& rng, Mesh mesh, int further_keys, float reach) {
+  for (int key = 0; key < further_keys; ++key) {
+    std::vector<Vec3f>& positions = mesh.motion_positions.emplace_back(mesh.positions);
+    for (Vec3f& position : positions) position += random_point(rng, reach);
+  }
+  return mesh;
+}
+
+// Any time, and sometimes exactly that of a key.
+inline float random_time(Random& rng) {
+  const float time = uniform(rng, 0, 1);
+  return std::uniform_int_distribution(0, 3)(rng) == 0 ? std::round(time * 4) / 4 : time;
+}
+
 inline TransformD random_transform(Random& rng) {
   TransformD m;
   do {
@@ -146,12 +173,13 @@ inline Hit brute_force(const std::vector<Shape>& shapes, const std::vector<Trace
   };
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
     if (!(instances[i].visibility & ray.kinds)) continue;
-    const PreciseRay local = transform_ray(instances[i].world_to_object, ray);
+    const PreciseRay local = transform_ray(world_to_object(instances[i], ray.time), ray);
     const auto test_mesh = [&](const Mesh& mesh) {
       for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+        if (i == ray.from_instance && triangle == ray.from_primitive) continue;
         PreciseRay copy = local;
-        const auto hit = intersect_triangle(copy, mesh.position(triangle, 0), mesh.position(triangle, 1),
-                                            mesh.position(triangle, 2));
+        const auto corner = [&](int i_corner) { return mesh.position_at(triangle, i_corner, ray.time); };
+        const auto hit = intersect_triangle(copy, corner(0), corner(1), corner(2));
         if (hit) consider(hit->t, hit->u, hit->v, i, triangle);
       }
     };
@@ -168,38 +196,8 @@ inline Hit brute_force(const std::vector<Shape>& shapes, const std::vector<Trace
 }
 
 inline bool is_identical(const Hit& a, const Hit& b) {
-  return a.t == b.t && a.instance == b.instance && a.primitive == b.primitive && a.u == b.u && a.v == b.v;
-}
-
-struct DistanceAndBorder {
-  double t;
-  double
-      border;  // how far inside the triangle the ray passes, in parts of what its coordinates may be rounded by; negative outside
-  double scale;  // what distances may be wrong by in parts of
-};
-
-// Of a ray and one primitive, in double precision.
-inline DistanceAndBorder distance_and_border(const std::vector<Shape>& shapes,
-                                             const std::vector<TracedInstance>& instances, const Ray& ray,
-                                             std::uint32_t instance, std::uint32_t primitive) {
-  const TracedInstance& placed = instances[instance];
-  const PreciseRay local = transform_ray(placed.world_to_object, ray);
-  if (const auto* sphere = std::get_if<Sphere>(&shapes[placed.shape])) {
-    PreciseRay copy = local;
-    return {intersect_sphere(copy, *sphere).value_or(-1), 1, 0};
-  }
-  const Mesh& mesh = std::get<Mesh>(shapes[placed.shape]);
-  const Vec3f p0 = mesh.position(primitive, 0), p1 = mesh.position(primitive, 1), p2 = mesh.position(primitive, 2);
-  const TriangleHit hit = intersect_triangle_plane(local, p0, p1, p2);
-  const Vec3d edge1 = Vec3d(p1) - Vec3d(p0), edge2 = Vec3d(p2) - Vec3d(p0);
-  const double area = length(cross(edge1, edge2)), size = length(local.direction);
-  const double cosine = std::abs(dot(cross(edge1, edge2), local.direction)) / (area * size);
-  const double altitude = area / std::max({length(edge1), length(edge2), length(edge2 - edge1)});
-  const double reach = std::max({length(local.origin), length(Vec3d(p0)), length(Vec3d(p1)), length(Vec3d(p2))});
-  // What a coordinate's rounding moves the hit by is larger where the ray grazes.
-  const double moved = reach / (cosine * altitude);
-  const double inside = std::min({hit.u, hit.v, 1 - hit.u - hit.v});
-  return {hit.t, std::isfinite(inside) && moved > 0 ? inside / moved : 0, reach / (cosine * size)};
+  using Words = std::array<std::uint32_t, 5>;
+  return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
 }
 
 inline Tracer make_tracer(const std::vector<Shape>& shapes, const std::vector<TracedInstance>& instances,

@@ -6,67 +6,11 @@
 
 #include <cmath>
 
+#include "integrator_scenes.h"
 #include "math/constants.h"
-#include "render/session.h"
 
 namespace basicrt {
 namespace {
-
-Mesh square(float half_size, float z) {
-  Mesh mesh;
-  mesh.positions = {
-      {-half_size, -half_size, z}, {half_size, -half_size, z}, {half_size, half_size, z}, {-half_size, half_size, z}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
-}
-
-Id<Material> add_material(Scene& scene, ShaderNode node) {
-  Material material;
-  material.surface = material.add(std::move(node));
-  return scene.materials.append(std::move(material));
-}
-
-void add_instance(Scene& scene, Shape shape, Id<Material> material) {
-  scene.instances.append(
-      {.name = "", .shape = scene.shapes.append(std::move(shape)), .object_to_world = {}, .materials = {material}});
-}
-
-// A few pixels that look straight down on the origin from z = 4.
-Scene scene_from_above(int samples) {
-  Scene scene;
-  PerspectiveCamera camera;
-  camera.to_world.rows[2][3] = 4;
-  camera.window_min = {-1e-3f, -1e-3f};
-  camera.window_max = {1e-3f, 1e-3f};
-  scene.camera = camera;
-  scene.settings.width = scene.settings.height = 8;
-  scene.settings.samples = samples;
-  scene.settings.passes.enable(Pass::depth);
-  return scene;
-}
-
-struct MeanColor {
-  Color radiance{0.0f};
-  float alpha = 0;
-};
-
-MeanColor render_mean(const Scene& scene) {
-  Report report;
-  const Film film = render(prepare(scene, report));
-  MeanColor mean;
-  const std::vector<float>& combined = film.values(Pass::combined);
-  const float scale = 4.0f / static_cast<float>(combined.size());
-  for (std::size_t i = 0; i < combined.size(); i += 4) {
-    mean.radiance += Color(combined[i], combined[i + 1], combined[i + 2]) * scale;
-    mean.alpha += combined[i + 3] * scale;
-  }
-  return mean;
-}
-
-void expect_radiance(const Scene& scene, Color expected, float relative) {
-  const Color mean = render_mean(scene).radiance;
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(mean[i], expected[i], relative * expected[i] + 1e-7f) << "channel " << i;
-}
 
 TEST(IntersectionTest, a_lit_floor_has_the_closed_form_s_radiance) {
   Scene scene = scene_from_above(4);
@@ -120,6 +64,71 @@ TEST(Path, a_white_furnace_is_white) {
     scene.settings.max_bounces = scene.settings.transmission_bounces = scene.settings.diffuse_bounces = 1000;
     add_instance(scene, Sphere{{0, 0, 0}, 1}, add_material(scene, node));
     expect_radiance(scene, Color(0.5f, 1, 2), 1e-3f);
+  }
+}
+
+Image plain_picture(Color color) {
+  return {.width = 2,
+          .height = 1,
+          .channels = 3,
+          .pixels = {color.x, color.y, color.z, color.x, color.y, color.z},
+          .path = ""};
+}
+
+TEST(Path, a_picture_of_one_colour_lights_as_that_colour_does) {
+  Scene scene = scene_from_above(256);
+  const Color color{0.5f, 1, 2};
+  scene.environment.layers = {{.radiance = Color(2.0f), .image = plain_picture(color)}};
+  add_instance(scene, square(5, 0), add_material(scene, DiffuseShader{.color = Color(0.5f)}));
+  expect_radiance(scene, color, 0.01f);
+}
+
+TEST(Path, what_the_camera_sees_of_the_environment_may_differ_from_what_lights) {
+  Scene scene = scene_from_above(64);
+  scene.environment.layers = {{.radiance = {1, 0, 0}, .seen_by = EnvironmentRays::camera},
+                              {.radiance = {0, 1, 0}, .seen_by = EnvironmentRays::scattered}};
+  expect_radiance(scene, {1, 0, 0}, 1e-5f);
+  add_instance(scene, square(5, 0), add_material(scene, DiffuseShader{.color = Color(0.5f)}));
+  expect_radiance(scene, {0, 0.5f, 0}, 1e-3f);
+}
+
+// The half of [0, 1] where u is below a half is 0, the other 1.
+Id<Texture> add_step(Scene& scene) {
+  return scene.textures.append(
+      ImageTexture{.image = {.width = 2, .height = 1, .channels = 1, .pixels = {0, 1}, .path = ""},
+                   .interpolation = ImageInterpolation::closest});
+}
+
+Mesh square_with_uvs(float half_size, float z) {
+  Mesh mesh = square(half_size, z);
+  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+  return mesh;
+}
+
+TEST(Path, a_textured_emitter_sheds_the_light_of_its_bright_half) {
+  // Half of a large square just above the floor shines: half of what is seen from below, for the black half is as wide.
+  Scene scene = scene_from_above(1024);
+  ColorInput step;
+  step.texture = add_step(scene);
+  add_instance(scene, square(5, 0), add_material(scene, DiffuseShader{.color = Color(0.5f)}));
+  add_instance(scene, square_with_uvs(200, 6), add_material(scene, EmissionShader{.radiance = step, .strength = 3}));
+  expect_radiance(scene, Color(0.5f * 3 / 2), 0.02f);
+}
+
+TEST(Path, a_share_that_varies_cuts_a_hole) {
+  // A sheet between floor and camera that is opaque and black where u is above a half.
+  for (const float x : {-0.1f, 0.1f}) {
+    Scene scene = scene_from_above(16);
+    scene.environment.radiance = Color(1.0f);
+    ShareInput step;
+    step.texture = add_step(scene);
+    Material sheet;
+    const NodeIndex clear = sheet.add(TransparentShader{});
+    sheet.surface = sheet.add(MixShader{.factor = step, .first = clear, .second = no_node});
+    Mesh mesh = square_with_uvs(1, 0);
+    for (Vec3f& p : mesh.positions) p.x -= x;
+    add_instance(scene, mesh, scene.materials.append(sheet));
+    expect_radiance(scene, Color(x < 0 ? 1.0f : 0.0f), 1e-5f);
   }
 }
 

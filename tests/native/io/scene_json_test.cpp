@@ -17,7 +17,7 @@ const std::filesystem::path source_dir = BASICRT_SOURCE_DIR;
 Color emission_of(const Scene& scene, std::uint32_t instance) {
   const Material& material = scene.materials[scene.instances[instance].materials.at(0)];
   for (const ShaderNode& node : material.nodes)
-    if (const auto* emission = std::get_if<EmissionShader>(&node)) return emission->radiance;
+    if (const auto* emission = std::get_if<EmissionShader>(&node)) return emission->radiance.constant;
   return Color(0.0f);
 }
 
@@ -148,15 +148,60 @@ TEST(SceneJson, the_environment_is_the_texture_times_the_scale) {
   EXPECT_EQ(scene_of(R"({"environment": {"radiance": [1, 2, 3]}})").environment.radiance, Color(1, 2, 3));
 }
 
-TEST(SceneJson, an_environment_that_varies_becomes_its_average_with_a_warning) {
+TEST(SceneJson, an_image_around_the_scene_is_a_layer_with_y_up) {
+  const Scene scene = scene_of(R"({
+    "textures": {"a": {"type": "image", "width": 4, "height": 2, "channels": 1, "pixels": [0, 1, 2, 3, 4, 5, 6, 7],
+                       "interpolation": "closest"}},
+    "environment_map": {"texture_name": "a", "scale": [1, 2, 4]}})");
+  ASSERT_EQ(scene.environment.layers.size(), 1u);
+  const auto at = [&](Vec3f direction) { return eval_environment(scene.environment, direction, true).x; };
+  EXPECT_EQ(at({-0.1f, -0.1f, -1}), 1);  // ahead, low and to the left
+  EXPECT_EQ(at({0.1f, -0.1f, -1}), 2);
+  EXPECT_EQ(at({0.1f, 0.1f, -1}), 6);
+  EXPECT_EQ(at({0.1f, 0.1f, 1}), 7);  // behind
+  EXPECT_EQ(eval_environment(scene.environment, {0.1f, 0.1f, 1}, true).z, 28);
+}
+
+TEST(SceneJson, a_checkerboard_around_the_scene_becomes_its_average_with_a_warning) {
   Report report;
   const Scene scene = scene_of(R"({"objects": [{"type": "sphere"}],
-    "textures": {"a": {"type": "image", "width": 2, "height": 1, "channels": 3, "pixels": [0, 1, 2, 4, 3, 2]}},
+    "textures": {"a": {"type": "checkerboard", "color0": [0, 1, 2], "color1": [4, 3, 2]}},
     "environment_map": {"texture_name": "a"}})",
                                report);
   EXPECT_EQ(scene.environment.radiance, Color(2, 2, 2));
   ASSERT_EQ(report.warnings().size(), 1u);
   EXPECT_TRUE(report.warnings()[0].starts_with("environment_map.texture_name: "));
+}
+
+TEST(SceneJson, images_are_shared_by_name) {
+  const Scene scene = scene_of(R"({
+    "images": {"dot": {"width": 1, "height": 1, "channels": 3, "bytes": [0, 128, 255], "encoding": "linear"}},
+    "textures": {"a": {"type": "image", "image": "dot"},
+                 "b": {"type": "image", "image": "dot", "extension": "clip", "divide_by_alpha": true}},
+    "environment": {"layers": [{"image": "dot", "seen_by": "camera", "projection": "mirror_ball"}, {"radiance": [1, 2, 3]}]}})");
+  const auto &a = std::get<ImageTexture>(scene.textures[0]), &b = std::get<ImageTexture>(scene.textures[1]);
+  EXPECT_EQ(a.image.bytes, (std::vector<std::uint8_t>{0, 128, 255}));
+  EXPECT_EQ(a.image.encoding, ByteEncoding::linear);
+  EXPECT_TRUE(a.image.has_same_pixels(b.image));
+  EXPECT_EQ(b.extension, ImageExtension::clip);
+  EXPECT_TRUE(b.is_divided_by_alpha);
+  ASSERT_EQ(scene.environment.layers.size(), 2u);
+  EXPECT_TRUE(scene.environment.layers[0].image.has_same_pixels(a.image));
+  EXPECT_EQ(scene.environment.layers[0].seen_by, EnvironmentRays::camera);
+  EXPECT_TRUE(scene.environment.layers[1].image.is_empty());
+}
+
+TEST(SceneJson, a_share_is_a_number_or_a_texture_or_its_alpha) {
+  const Scene scene = scene_of(R"({
+    "textures": {"a": {"type": "constant"}},
+    "materials": {"m": {"nodes": [{"type": "principled", "alpha": {"texture": "a", "alpha": true}},
+                                  {"type": "mix", "factor": "a", "first": 0}, {"type": "mix", "factor": 0.25}]}}})");
+  const std::vector<ShaderNode>& nodes = scene.materials[0].nodes;
+  EXPECT_TRUE(std::get<PrincipledShader>(nodes[0]).alpha.is_alpha);
+  EXPECT_EQ(std::get<PrincipledShader>(nodes[0]).alpha.texture.index, 0u);
+  EXPECT_EQ(std::get<MixShader>(nodes[1]).factor.texture.index, 0u);
+  EXPECT_FALSE(std::get<MixShader>(nodes[1]).factor.is_alpha);
+  EXPECT_EQ(std::get<MixShader>(nodes[2]).factor.constant, 0.25f);
 }
 
 TEST(SceneJson, max_depth_counts_the_surfaces_of_a_path) {
@@ -193,7 +238,7 @@ TEST(SceneJson, shaders_nest_and_refer_to_materials_before_them) {
     "half": {"type": "mix", "first": null}}})");
   const Material& veil = scene.materials[1];
   const auto& mix = std::get<MixShader>(veil.nodes.at(veil.surface));
-  EXPECT_EQ(mix.factor, 0.25f);
+  EXPECT_EQ(mix.factor.constant, 0.25f);
   EXPECT_TRUE(std::holds_alternative<TransparentShader>(veil.nodes.at(mix.first)));
   EXPECT_EQ(std::get<DiffuseShader>(veil.nodes.at(mix.second)).color.constant, Color(1, 0, 0));
   const Material& both = scene.materials[2];
@@ -221,6 +266,25 @@ TEST(SceneJson, objects_share_shapes_and_have_materials_for_slots) {
   EXPECT_EQ(scene.instances[0].visibility, ray_camera | ray_shadow);
   EXPECT_EQ(scene.instances[1].visibility, ray_all);
   EXPECT_EQ(std::get<Mesh>(scene.shapes[0]).material_slots, std::vector<std::uint32_t>{1});
+}
+
+TEST(SceneJson, what_moves_has_keys_and_a_translation_moves_them_all) {
+  const Scene scene = scene_of(R"({
+    "settings": {"shutter_curve": [0, 1, 0.5]},
+    "camera": {"type": "orthographic", "motion_transforms": [[1, 0, 0, 3,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1]]},
+    "objects": [{"type": "mesh", "positions": [0, 0, 0, 1, 0, 0, 0, 1, 0], "triangles": [0, 1, 2],
+                 "motion_positions": [[0, 0, 1, 1, 0, 1, 0, 1, 1], [0, 0, 2, 1, 0, 2, 0, 1, 2]],
+                 "translate": [10, 0, 0],
+                 "motion_transforms": [[1, 0, 0, 1,  0, 1, 0, 2,  0, 0, 1, 3,  0, 0, 0, 1]]}]})");
+  EXPECT_EQ(scene.settings.shutter_curve, (std::vector<float>{0, 1, 0.5f}));
+  ASSERT_EQ(std::get<OrthographicCamera>(*scene.camera).motion_transforms.size(), 1u);
+  EXPECT_EQ(std::get<OrthographicCamera>(*scene.camera).motion_transforms[0].rows[0][3], 3);
+  ASSERT_EQ(scene.instances[0].motion_transforms.size(), 1u);
+  EXPECT_EQ(scene.instances[0].object_to_world.column(3), Vec3f(10, 0, 0));
+  EXPECT_EQ(scene.instances[0].motion_transforms[0].column(3), Vec3f(11, 2, 3));
+  const Mesh& mesh = std::get<Mesh>(scene.shapes[0]);
+  ASSERT_EQ(mesh.motion_positions.size(), 2u);
+  EXPECT_EQ(mesh.motion_positions[1][2], Vec3f(0, 1, 2));
 }
 
 TEST(SceneJson, an_obj_file_that_two_objects_name_is_read_once) {

@@ -52,8 +52,14 @@ Json value_schema(const Range& range) {
     return vector_schema(3, range);
   else if constexpr (std::same_as<Value, Transform>)
     return {{"$ref", "#/$defs/transform"}};
+  else if constexpr (std::same_as<Value, std::vector<Transform>>)
+    return {{"type", "array"}, {"items", {{"$ref", "#/$defs/transform"}}}};
+  else if constexpr (std::same_as<Value, std::vector<float>>)
+    return {{"type", "array"}, {"items", range_schema("number", range)}};
   else if constexpr (std::same_as<Value, ColorInput>)
     return {{"oneOf", {vector_schema(3, range), {{"description", "a texture's name"}, {"type", "string"}}}}};
+  else if constexpr (std::same_as<Value, ShareInput>)
+    return {{"oneOf", {range_schema("number", range), {{"$ref", "#/$defs/texture_share"}}}}};
   else
     return {{"enum", enum_names<Value>}};
 }
@@ -87,6 +93,22 @@ void for_each_kind(Visitor&& visit) {
   for (std::size_t i = 0; i < std::variant_size_v<Variant>; ++i) VariantKinds<Variant>::visit_index(i, visit);
 }
 
+// An image where it is given.
+Json image_properties() {
+  const Json size = {{"type", "integer"}, {"minimum", 1}};
+  return {{"path", {{"description", "an image file, relative to this file"}, {"type", "string"}}},
+          {"width", size},
+          {"height", size},
+          {"channels", {{"type", "integer"}, {"minimum", 1}, {"maximum", 4}}},
+          {"pixels",
+           {{"description", "scene-linear, row 0 at the bottom"}, {"type", "array"}, {"items", {{"type", "number"}}}}},
+          {"bytes",
+           {{"description", "in place of pixels: 255 is 1"},
+            {"type", "array"},
+            {"items", {{"type", "integer"}, {"minimum", 0}, {"maximum", 255}}}}},
+          {"encoding", {{"description", "how bytes stand for colour"}, {"enum", enum_names<ByteEncoding>}}}};
+}
+
 // Every definition that follows from described structs, by its name.
 Json expected_definitions() {
   Json definitions = Json::object();
@@ -103,17 +125,15 @@ Json expected_definitions() {
   definitions["constant_texture"] = definition_of<ConstantTexture>();
   definitions["checkerboard_texture"] =
       definition_of<CheckerboardTexture>({{"tex_coordinate_generator", {{"$ref", "#/$defs/texture_generator"}}}});
-  const Json size = {{"type", "integer"}, {"minimum", 1}};
-  definitions["image_texture"] = definition_of<ImageTexture>(
-      {{"path", {{"description", "an image file, relative to this file"}, {"type", "string"}}},
-       {"width", size},
-       {"height", size},
-       {"channels", {{"type", "integer"}, {"minimum", 1}, {"maximum", 4}}},
-       {"pixels",
-        {{"description", "scene-linear, row 0 at the bottom"}, {"type", "array"}, {"items", {{"type", "number"}}}}}});
+  Json image_texture = image_properties();
+  image_texture["image"] = {{"$ref", "#/$defs/image_input"}};
+  definitions["image_texture"] = definition_of<ImageTexture>(image_texture);
+  definitions["image"] = {{"type", "object"}, {"properties", image_properties()}, {"additionalProperties", false}};
+  definitions["environment_layer"] = definition_of<EnvironmentLayer>({{"image", {{"$ref", "#/$defs/image_input"}}}});
   definitions["sphere_shape"] = definition_of<Sphere>();
   definitions["filter"] = definition_of<FilterSettings>();
-  definitions["environment"] = definition_of<Environment>();
+  definitions["environment"] =
+      definition_of<Environment>({{"layers", {{"type", "array"}, {"items", {{"$ref", "#/$defs/environment_layer"}}}}}});
   Json pass_names = Json::array();
   for (const PassInfo& info : passes) pass_names.push_back(info.name);
   definitions["settings"] = definition_of<RenderSettings>(
@@ -186,6 +206,8 @@ TEST(SceneSchema, has_the_reader_s_keys_and_no_others) {
       {"perspective_camera", R"({"camera": {"type": "perspective", %}})"},
       {"environment_map", R"({"environment_map": {%}})"},
       {"environment", R"({"environment": {%}})"},
+      {"environment_layer", R"({"environment": {"layers": [{%}]}})"},
+      {"image", R"({"images": {"a": {%}}})"},
       {"checkerboard_texture", R"({"textures": {"a": {"type": "checkerboard", %}}})"},
       {"texture_generator", R"({"textures": {"a": {"type": "checkerboard", "tex_coordinate_generator": {%}}}})"},
       {"image_texture", R"({"textures": {"a": {"type": "image", %}}})"},

@@ -21,31 +21,51 @@ Scene make_full_scene() {
   scene.settings.width = 123;
   scene.settings.seed = -9007199254740993;  // needs 54 bits
   scene.settings.exposure = 1.0f / 3;
+  scene.settings.shutter_curve = {0.1f, 1, 0};
   scene.settings.filter = {FilterKind::blackman_harris, 1.0f / 7};
   scene.settings.passes.enable(Pass::normal);
   scene.settings.bvh_builder = BvhBuilder::median;
   PerspectiveCamera camera;
   camera.to_world.rows = {{{0.1f, 0.2f, 0.3f, 1e-20f}, {-0.7f, 0.6f, 0.1f, 1e10f}, {0.3f, 0.3f, -0.9f, 1.0f / 3}}};
   camera.clip_near = 1e-45f;  // denormal
+  camera.motion_transforms = {camera.to_world, Transform{}};
   scene.camera = camera;
   scene.environment.radiance = {0.1f, 16777216.0f, 3e38f};
 
   scene.textures.append(ConstantTexture{.color = {0.1f, 0.2f, 0.3f}});
   scene.textures.append(CheckerboardTexture{.color0 = {1, 0, 0}, .color1 = {0, 0.1f, 0}, .scale = {3, 0.7f}});
   scene.textures.append(
-      ImageTexture{{.width = 2, .height = 1, .channels = 2, .pixels = {0.1f, -1, 1e30f, 0}, .path = ""}});
+      ImageTexture{.image = {.width = 2, .height = 1, .channels = 2, .pixels = {0.1f, -1, 1e30f, 0}, .path = ""}});
+
+  const Image bytes{.width = 1, .height = 2, .channels = 1, .pixels = {}, .path = "", .bytes = {7, 255}};
+  scene.textures.append(ImageTexture{.image = bytes,
+                                     .interpolation = ImageInterpolation::cubic,
+                                     .extension = ImageExtension::mirror,
+                                     .uv_to_image = Transform({{{2, 0, 0, 0.1f}, {0, 0, 0, 0}, {0, 0, 1, 0}}}),
+                                     .is_divided_by_alpha = true});
+  scene.environment.layers = {{.radiance = {1, 0.1f, 0}, .seen_by = EnvironmentRays::camera},
+                              {.image = bytes,
+                               .projection = EnvironmentProjection::mirror_ball,
+                               .interpolation = ImageInterpolation::closest,
+                               .to_image = Transform({{{0, 1, 0, 0.1f}, {1, 0, 0, 0}, {0, 0, 1, 0}}}),
+                               .seen_by = EnvironmentRays::scattered}};
 
   Material material{.name = "all \"kinds\"\n\xc3\xa4", .nodes = {}};
   ColorInput textured;
   textured.texture = Id<Texture>{2};
+  ShareInput shared;
+  shared.texture = Id<Texture>{3};
+  shared.is_alpha = true;
   const NodeIndex first = material.add(DiffuseShader{.color = textured, .is_two_sided = true});
   material.add(GlossyShader{.color = Color(0.3f), .roughness = 0.1f});
   material.add(ConductorShader{.is_ggx = true});
   material.add(RefractionShader{.ior = 1.1f});
   material.add(GlassShader{.transmit_color = textured});
   material.add(TransparentShader{});
-  const NodeIndex emission = material.add(EmissionShader{.radiance = {1, 2, 3}, .is_two_sided = false});
-  material.add(PrincipledShader{.base_color = textured, .metallic = 0.9f, .emission = {0.1f, 0, 0}});
+  const NodeIndex emission =
+      material.add(EmissionShader{.radiance = textured, .is_two_sided = false, .strength = 0.3f});
+  material.add(
+      PrincipledShader{.base_color = textured, .metallic = 0.9f, .emission = Color(0.1f, 0, 0), .alpha = shared});
   const NodeIndex mix = material.add(MixShader{.factor = 0.1f, .first = first, .second = no_node});
   material.surface = material.add(AddShader{.first = mix, .second = emission});
   scene.materials.append(material);
@@ -54,11 +74,14 @@ Scene make_full_scene() {
   scene.materials.append(Material{.name = "twin", .nodes = {GlassShader{}, DiffuseShader{}}, .surface = 0});
   scene.materials.append(Material{.name = "material1", .nodes = {}});
 
-  scene.shapes.append(Mesh{.positions = {{0.1f, 0, 0}, {1, 0, 1.0f / 3}, {0, 1, 0}},
-                           .triangles = {{0, 1, 2}},
-                           .corner_normals = {{0, 0, 1}, {0, 0.1f, 1}, {0, 0, 1}},
-                           .uvs = {{0, 0}, {0.1f, 0}, {0, 0.7f}},
-                           .material_slots = {3}});
+  scene.shapes.append(
+      Mesh{.positions = {{0.1f, 0, 0}, {1, 0, 1.0f / 3}, {0, 1, 0}},
+           .triangles = {{0, 1, 2}},
+           .corner_normals = {{0, 0, 1}, {0, 0.1f, 1}, {0, 0, 1}},
+           .uvs = {{0, 0}, {0.1f, 0}, {0, 0.7f}},
+           .material_slots = {3},
+           .motion_positions = {{{0.3f, 0, 0}, {1, 0, 1}, {0, 1, 0}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}},
+           .motion_corner_normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}}}});
   scene.shapes.append(Sphere{.center = {0.1f, 0.2f, 0.3f}, .radius = 0.7f});
   Transform transform;
   transform.rows[0] = {2, 0, 0.1f, -1};
@@ -66,7 +89,8 @@ Scene make_full_scene() {
                           .shape = {0},
                           .object_to_world = transform,
                           .materials = {{3}, {}, {2}, {1}, {4}, {0}},
-                          .visibility = ray_camera | ray_glossy});
+                          .visibility = ray_camera | ray_glossy,
+                          .motion_transforms = {Transform{}, transform}});
   scene.instances.append({.name = "", .shape = {1}, .object_to_world = {}, .materials = {}});
   scene.instances.append({.name = "unseen", .shape = {1}, .object_to_world = {}, .materials = {}, .visibility = 0});
 
@@ -99,6 +123,7 @@ TEST(WriteScene, tables_keep_their_order_and_names) {
     EXPECT_EQ(loaded.instances[i].materials, scene.instances[i].materials);
     EXPECT_EQ(loaded.instances[i].visibility, scene.instances[i].visibility);
     EXPECT_EQ(loaded.instances[i].object_to_world, scene.instances[i].object_to_world);
+    EXPECT_EQ(loaded.instances[i].motion_transforms, scene.instances[i].motion_transforms);
   }
   const auto &mesh = std::get<Mesh>(scene.shapes[0]), &loaded_mesh = std::get<Mesh>(loaded.shapes[0]);
   EXPECT_EQ(loaded_mesh.positions, mesh.positions);
@@ -106,12 +131,16 @@ TEST(WriteScene, tables_keep_their_order_and_names) {
   EXPECT_EQ(loaded_mesh.corner_normals, mesh.corner_normals);
   EXPECT_EQ(loaded_mesh.uvs, mesh.uvs);
   EXPECT_EQ(loaded_mesh.material_slots, mesh.material_slots);
+  EXPECT_EQ(loaded_mesh.motion_positions, mesh.motion_positions);
+  EXPECT_EQ(loaded_mesh.motion_corner_normals, mesh.motion_corner_normals);
   EXPECT_EQ(std::get<ImageTexture>(loaded.textures[2]).image.pixels,
             std::get<ImageTexture>(scene.textures[2]).image.pixels);
   EXPECT_EQ(loaded.settings.seed, scene.settings.seed);
+  EXPECT_EQ(loaded.settings.shutter_curve, scene.settings.shutter_curve);
   EXPECT_EQ(loaded.settings.passes, scene.settings.passes);
   const auto& camera = std::get<PerspectiveCamera>(*loaded.camera);
   EXPECT_EQ(camera.to_world, std::get<PerspectiveCamera>(*scene.camera).to_world);
+  EXPECT_EQ(camera.motion_transforms, std::get<PerspectiveCamera>(*scene.camera).motion_transforms);
   EXPECT_EQ(camera.clip_near, 1e-45f);
   EXPECT_EQ(camera.clip_far, infinity);
 }

@@ -31,7 +31,9 @@ struct Scene {
                         .front = std::move(front),
                         .back = std::move(back)});
   }
-  [[nodiscard]] LightSet lights() const { return {lamps, emitters, environment, {Vec3f(-5), Vec3f(5)}}; }
+  [[nodiscard]] LightSet lights() const {
+    return {lamps, emitters, EnvironmentSampler(environment), {Vec3f(-5), Vec3f(5)}};
+  }
 };
 
 Mesh triangle_mesh(Vec3f a, Vec3f b, Vec3f c) {
@@ -86,23 +88,36 @@ void for_each_surface_hit(const EmissiveInstance& emitter, Vec3d origin, Vec3d d
   visit_at(near > 0 ? near : far, 0);
 }
 
-ChiSquareResult compare_with_density(const Scene& scene, Vec3f position) {
-  const LightSet lights = scene.lights();
+template <class Visitor>
+void for_each_lamp_density(const LightSet& lights, Vec3f position, Vec3f wi, Visitor&& visit) {
+  const Ray ray{.origin = position, .direction = wi};
+  lights.for_each_lamp_hit(ray, Vec3f(0), visit);
+  lights.for_each_distant_hit(ray, Vec3f(0), visit);
+}
+
+// `surfaces` are the emissive shapes, standing where they are at the time.
+ChiSquareResult compare_with_density(const LightSet& lights, const std::vector<EmissiveInstance>& surfaces,
+                                     Vec3f position, float time) {
   const auto sample = [&](Rng& rng) -> std::optional<Vec3f> {
     const float choice = next_unit_float(rng);
-    const auto s = lights.sample(position, choice, next_unit_vec2(rng));
+    const auto s = lights.sample(position, choice, next_unit_vec2(rng), time);
     if (!s) return std::nullopt;
     return s->wi;
   };
   const auto density = [&](Vec3f wi) {
     double sum = 0;
-    lights.for_each_lamp_hit({.origin = position, .direction = wi}, [&](const LightHit& hit) { sum += hit.pdf; });
-    for (const EmissiveInstance& emitter : scene.emitters)
-      for_each_surface_hit(emitter, Vec3d(position), Vec3d(wi),
-                           [&](const SurfacePoint& point) { sum += lights.pdf_surface(point, position); });
+    for_each_lamp_density(lights, position, wi, [&](const LightHit& hit) { sum += hit.pdf; });
+    for (const EmissiveInstance& surface : surfaces)
+      for_each_surface_hit(surface, Vec3d(position), Vec3d(wi), [&](SurfacePoint point) {
+        point.time = time;
+        sum += lights.pdf_surface(point, position);
+      });
     return sum;
   };
   return chi_square_sphere(sample, density, {.samples = 50000, .pilot_samples = 20000});
+}
+ChiSquareResult compare_with_density(const Scene& scene, Vec3f position) {
+  return compare_with_density(scene.lights(), scene.emitters, position, 0);
 }
 
 // In the first channel, on a surface that faces `normal`.
@@ -114,6 +129,30 @@ double irradiance(const LightSet& lights, Vec3f position, Vec3f normal, int n = 
       sum += double(sample->radiance.x) * std::max(0.0f, dot(sample->wi, normal)) / sample->pdf;
   });
   return sum / (double(n) * n);
+}
+
+TEST(LightSet, samples_of_shapes_that_move_follow_their_density_at_each_time) {
+  Rng rng(23);
+  const Mesh mesh = random_mesh(5, rng);
+  Mesh deforming = mesh;
+  std::vector<Vec3f>& end = deforming.motion_positions.emplace_back(mesh.positions);
+  for (Vec3f& position : end) position += Vec3f{0.5f, -1, 2};
+  const std::vector<TransformD> keys{TransformD{}, TransformD({{{0, -2, 0, 3}, {2, 0, 0, 0}, {0, 0, 2, 1}}})};
+  const std::vector<Color> front(3, Color(1.0f)), back(3, Color(0.5f));
+  Scene moving;
+  for (const Shape& shape : {Shape(deforming), Shape(Sphere{{1, 2, 3}, 0.5f})}) {
+    moving.add(shape, keys[0], front, back);
+    moving.emitters.back().motion = keys;
+  }
+  for (const float time : {0.0f, 0.3f, 1.0f}) {
+    Mesh now = mesh;
+    for (std::uint32_t i = 0; i < 15; ++i) now.positions[i] = deforming.position_at(i / 3, int(i % 3), time);
+    Scene still;
+    for (const Shape& shape : {Shape(now), Shape(Sphere{{1, 2, 3}, 0.5f})})
+      still.add(shape, transform_at(keys, time), front, back);
+    const auto result = compare_with_density(moving.lights(), still.emitters, {4, 3, -2}, time);
+    EXPECT_GT(result.p_value, sidak_threshold(3)) << time << ": " << result.describe();
+  }
 }
 
 TEST(LightSet, samples_of_triangles_of_any_size_follow_their_density) {
@@ -144,8 +183,7 @@ void add_a_bit_of_everything(Scene& scene, Rng& rng) {
 // Calls visit(source, distance, pdf) for everything in a direction; shapes come after the lamps.
 template <class Visitor>
 void for_each_density(const Scene& scene, const LightSet& lights, Vec3f position, Vec3f wi, Visitor&& visit) {
-  lights.for_each_lamp_hit({.origin = position, .direction = wi},
-                           [&](const LightHit& hit) { visit(0u, hit.t, hit.pdf); });
+  for_each_lamp_density(lights, position, wi, [&](const LightHit& hit) { visit(0u, hit.t, hit.pdf); });
   for (std::uint32_t i = 0; i < scene.emitters.size(); ++i)
     for_each_surface_hit(scene.emitters[i], Vec3d(position), Vec3d(wi), [&](const SurfacePoint& point) {
       visit(i + 1, length(point.position - position), lights.pdf_surface(point, position));
@@ -259,8 +297,8 @@ TEST(LightSet, each_side_has_its_own_radiance_under_mirrors_too) {
     // Wound to face +z in object space, which the mirror along x leaves alone.
     scene.add(triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), TransformD(scaling({mirror, 1, 1})), {red}, {blue});
     const LightSet lights = scene.lights();
-    const auto above = lights.sample({0, 0, 2}, 0.5f, {0.3f, 0.3f}),
-               below = lights.sample({0, 0, -2}, 0.5f, {0.3f, 0.3f});
+    const auto above = lights.sample(Vec3f{0, 0, 2}, 0.5f, {0.3f, 0.3f}),
+               below = lights.sample(Vec3f{0, 0, -2}, 0.5f, {0.3f, 0.3f});
     ASSERT_TRUE(above && below);
     EXPECT_EQ(above->radiance, red);
     EXPECT_EQ(below->radiance, blue);
@@ -271,13 +309,13 @@ TEST(LightSet, a_side_that_does_not_shine_is_neither_sampled_nor_expected) {
   Scene scene;
   scene.add(triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), {}, {Color(1)}, {Color(0.0f)});
   const LightSet lights = scene.lights();
-  EXPECT_TRUE(lights.sample({0, 0, 1}, 0.5f, {0.5f, 0.5f}));
-  EXPECT_FALSE(lights.sample({0, 0, -1}, 0.5f, {0.5f, 0.5f}));
+  EXPECT_TRUE(lights.sample(Vec3f{0, 0, 1}, 0.5f, {0.5f, 0.5f}));
+  EXPECT_FALSE(lights.sample(Vec3f{0, 0, -1}, 0.5f, {0.5f, 0.5f}));
   SurfacePoint point;
   point.position = {0.2f, 0.2f, 0};
   point.instance = 1;
-  EXPECT_GT(lights.pdf_surface(point, {0, 0, 1}), 0);
-  EXPECT_EQ(lights.pdf_surface(point, {0, 0, -1}), 0);
+  EXPECT_GT(lights.pdf_surface(point, Vec3f{0, 0, 1}), 0);
+  EXPECT_EQ(lights.pdf_surface(point, Vec3f{0, 0, -1}), 0);
 }
 
 TEST(LightSet, shapes_do_not_light_their_own_points) {
@@ -313,7 +351,7 @@ TEST(LightSet, probabilities_of_the_choice_sum_to_one) {
   const LightSet lights = scene.lights();
   double sum = 0;
   int hits = 0;
-  lights.for_each_lamp_hit({.origin = {0, 0, 0}, .direction = {0, 0, 1}}, [&](const LightHit& hit) {
+  for_each_lamp_density(lights, {0, 0, 0}, {0, 0, 1}, [&](const LightHit& hit) {
     sum += hit.pdf;
     ++hits;
   });
@@ -321,12 +359,34 @@ TEST(LightSet, probabilities_of_the_choice_sum_to_one) {
   EXPECT_NEAR(sum / light_pdf(scene.lamps[0], {0, 0, 0}, {0, 0, 1}), 1, 1e-5);
 }
 
+TEST(LightSet, rays_meet_lamps_among_many_and_among_black_ones) {
+  for (const int shining : {1, 2, 3, 40}) {
+    Scene scene;
+    for (int i = 0; i < 50; ++i)
+      scene.lamps.push_back(
+          PointLight{.position = {float(i), 0, 3}, .intensity = Color(i < shining ? 1.0f : 0.0f), .radius = 0.1f});
+    scene.lamps.push_back(SunLight{.direction = {0, 0, -1}, .angle = 0.1f});
+    const LightSet lights = scene.lights();
+    for (int i = 0; i < 50; ++i) {
+      int near = 0, distant = 0;
+      const Ray ray{.origin = {float(i), 0, 0}, .direction = {0, 0, 1}, .t_max = 100};
+      lights.for_each_lamp_hit(ray, Vec3f(0), [&](const LightHit& hit) {
+        ++near;
+        EXPECT_NEAR(hit.t, 2.9f, 1e-4);
+      });
+      lights.for_each_distant_hit(ray, Vec3f(0), [&](const LightHit&) { ++distant; });
+      EXPECT_EQ(near, i < shining ? 1 : 0) << shining;
+      EXPECT_EQ(distant, 1);  // whatever the ray's end
+    }
+  }
+}
+
 TEST(LightSet, one_light_alone_keeps_its_own_density) {
   const Light lamp = PointLight{.position = {0, 0, 3}, .radius = 1};
   Scene scene;
   scene.lamps = {lamp};
   const auto alone = sample_light(lamp, {0, 0, 0}, {0.2f, 0.3f});
-  const auto in_set = scene.lights().sample({0, 0, 0}, 0.9f, {0.2f, 0.3f});
+  const auto in_set = scene.lights().sample(Vec3f{0, 0, 0}, 0.9f, {0.2f, 0.3f});
   ASSERT_TRUE(alone && in_set);
   EXPECT_EQ(alone->wi, in_set->wi);
   EXPECT_EQ(alone->pdf, in_set->pdf);
@@ -341,14 +401,37 @@ TEST(LightSet, irradiance_of_many_deltas_is_their_sum) {
   EXPECT_NEAR(irradiance(scene.lights(), {0, 0, 0}, {0, 0, 1}), expected, 0.02);
 }
 
-TEST(LightSet, the_environment_alone_leaves_nothing_to_sample) {
+TEST(LightSet, an_environment_of_one_colour_leaves_nothing_to_sample) {
   Scene scene;
   scene.environment.radiance = Color(1);
   const LightSet lights = scene.lights();
   EXPECT_TRUE(lights.is_empty());
-  EXPECT_FALSE(lights.sample({0, 0, 0}, 0.5f, {0.5f, 0.5f}));
-  EXPECT_EQ(lights.pdf_environment(), 0);
-  EXPECT_EQ(lights.environment().radiance, Color(1));
+  EXPECT_FALSE(lights.sample(Vec3f{0, 0, 0}, 0.5f, {0.5f, 0.5f}));
+  EXPECT_EQ(lights.pdf_environment({0, 0, 1}), 0);
+  EXPECT_EQ(lights.environment_radiance({0, 0, 1}, false), Color(1));
+}
+
+TEST(LightSet, pictures_around_the_scene_share_the_choice_with_lamps) {
+  std::vector<float> greys(64 * 32);
+  for (std::size_t i = 0; i < greys.size(); ++i) greys[i] = 1 + float(i % 7);
+  Scene scene;
+  scene.environment.layers = {{.image = {.width = 64, .height = 32, .channels = 1, .pixels = greys, .path = ""}}};
+  scene.lamps = {PointLight{.position = {0, 0, 2}, .intensity = Color(4), .radius = 0.5f}};
+  const LightSet lights = scene.lights();
+  const auto sample = [&](Rng& rng) -> std::optional<Vec3f> {
+    const float choice = next_unit_float(rng);
+    const auto s = lights.sample(Vec3f{0, 0, 0}, choice, next_unit_vec2(rng));
+    if (!s) return std::nullopt;
+    return s->wi;
+  };
+  const auto density = [&](Vec3f wi) {
+    double sum = lights.pdf_environment(wi);
+    for_each_lamp_density(lights, Vec3f{0, 0, 0}, wi, [&](const LightHit& hit) { sum += hit.pdf; });
+    return sum;
+  };
+  const auto result = chi_square_sphere(sample, density, {.samples = 50000, .pilot_samples = 20000});
+  EXPECT_GT(result.p_value, 1e-3) << result.describe();
+  EXPECT_NEAR(result.mass, 1, 0.01) << result.describe();
 }
 
 TEST(LightSet, surfaces_that_do_not_shine_have_no_density) {
@@ -358,7 +441,7 @@ TEST(LightSet, surfaces_that_do_not_shine_have_no_density) {
   for (const std::uint32_t instance : {0u, 2u, 1000u}) {
     SurfacePoint point;
     point.instance = instance;
-    EXPECT_EQ(lights.pdf_surface(point, {0, 0, 1}), 0) << instance;
+    EXPECT_EQ(lights.pdf_surface(point, Vec3f{0, 0, 1}), 0) << instance;
   }
 }
 

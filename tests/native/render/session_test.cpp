@@ -75,6 +75,76 @@ TEST(Session, a_border_renders_the_same_pixels_and_no_others) {
     }
 }
 
+Scene make_adaptive_scene(int samples, float threshold) {
+  Scene scene = make_scene(samples);
+  scene.settings.adaptive_threshold = threshold;
+  scene.settings.adaptive_min_samples = 16;
+  return scene;
+}
+
+TEST(AdaptiveSampling, the_same_bytes_for_any_number_of_threads_and_any_tile_size) {
+  const Scene scene = make_adaptive_scene(200, 0.05f);
+  const Film reference = render(prepared(scene), {.threads = 1, .tile_size = 64});
+  for (const SessionOptions options : {SessionOptions{1, 5}, SessionOptions{3, 16}, SessionOptions{4, 1}})
+    expect_same_values(render(prepared(scene), options), reference);
+}
+
+// Pulls all tiles.
+Progress finish(Session& session) {
+  while (!session.is_done()) (void)session.next_tile(10ms);
+  return session.progress();
+}
+
+TEST(AdaptiveSampling, spends_samples_where_the_noise_is) {
+  Session all(prepared(make_scene(200))), few(prepared(make_adaptive_scene(200, 0.05f)));
+  const Progress all_done = finish(all), few_done = finish(few);
+  EXPECT_EQ(all_done.samples_per_pixel, 200);
+  EXPECT_LT(few_done.samples_per_pixel, 150);
+  EXPECT_GT(few_done.samples_per_pixel, 16);
+  EXPECT_EQ(few_done.fraction, 1);
+}
+
+TEST(AdaptiveSampling, pixels_with_all_samples_have_the_bytes_of_a_fixed_number) {
+  Scene scene = make_adaptive_scene(60, 0.5f);
+  scene.settings.adaptive_min_samples = 60;
+  expect_same_values(render(prepared(scene)), render(prepared(make_scene(60))));
+}
+
+TEST(TimeLimit, one_that_is_not_reached_changes_no_byte) {
+  Scene scene = make_scene(50);
+  const Film reference = render(prepared(scene));
+  scene.settings.time_limit = 1000;
+  expect_same_values(render(prepared(scene), {.threads = 3, .tile_size = 16}), reference);
+}
+
+TEST(TimeLimit, ends_a_render_with_all_pixels_sampled_about_alike) {
+  Scene scene = make_scene(1 << 20);
+  scene.settings.time_limit = 0.3f;
+  const Film black(48, 32, scene.settings.passes);
+  Film film = black;
+  Session session(prepared(scene), {.threads = 2, .tile_size = 16});
+  const auto begin = std::chrono::steady_clock::now();
+  while (!session.is_done())
+    if (const std::optional<Tile> tile = session.next_tile(10ms)) film.write(*tile);
+  // Two seconds more than the limit, since the sanitizers' builds and a busy machine are slow.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2300ms);
+  const Progress progress = session.progress();
+  EXPECT_TRUE(progress.is_time_up);
+  EXPECT_EQ(progress.fraction, 1);
+  EXPECT_GE(progress.samples_per_pixel, 1);
+  for (std::size_t i = 3; i < film.values(Pass::combined).size(); i += 4)
+    ASSERT_EQ(film.values(Pass::combined)[i], 1) << "no sample at " << i / 4;
+}
+
+TEST(TimeLimit, the_first_round_is_finished_however_short_the_time) {
+  Scene scene = make_scene(100);
+  scene.settings.time_limit = 1e-6f;
+  const Film film = render(prepared(scene), {.threads = 2, .tile_size = 16});
+  scene.settings.time_limit = 0;
+  scene.settings.samples = 1;
+  expect_same_values(film, render(prepared(scene)));
+}
+
 TEST(Session, progress_never_falls_and_ends_at_one) {
   Session session(prepared(make_scene(200)), {.threads = 2, .tile_size = 16});
   double last = 0;

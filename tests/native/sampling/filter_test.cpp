@@ -45,6 +45,8 @@ TEST(PixelFilter, has_the_values_of_its_formula) {
   const PixelFilter gaussian({FilterKind::gaussian, 2});
   EXPECT_FLOAT_EQ(gaussian.eval(0.5f), std::exp(-0.5f) - std::exp(-8.0f));
   EXPECT_EQ(gaussian.eval(2.001f), 0);
+  const PixelFilter narrow({.kind = FilterKind::gaussian, .radius = 2, .falloff = 8});
+  EXPECT_FLOAT_EQ(narrow.eval(0.5f), std::exp(-2.0f) - std::exp(-32.0f));
   const PixelFilter blackman_harris({FilterKind::blackman_harris, 1.5f});
   EXPECT_FLOAT_EQ(blackman_harris.eval(0), 1);  // the coefficients' sum
   EXPECT_NEAR(blackman_harris.eval(1.5f), 0.35875 - 0.48829 + 0.14128 - 0.01168, 1e-7);

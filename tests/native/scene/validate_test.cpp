@@ -185,7 +185,7 @@ TEST(Validate, a_sun_shines_somewhere) {
 
 TEST(Validate, an_image_has_the_pixels_that_its_size_says) {
   const auto problem_with = [](Image image) {
-    return problem_after([&](Scene& scene) { scene.textures.append(ImageTexture{std::move(image)}); });
+    return problem_after([&](Scene& scene) { scene.textures.append(ImageTexture{.image = std::move(image)}); });
   };
   EXPECT_EQ(problem_with({.width = 1, .height = 1, .channels = 3, .pixels = {1, 1, 1}, .path = ""}), "");
   EXPECT_EQ(problem_with({}), "textures[1]: the image has no pixels");

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "bvh/tree.h"
+#include "geometry/key_interval.h"
 
 namespace basicrt {
 
@@ -33,14 +34,22 @@ struct TriangleOwner {
   std::uint32_t instance, primitive;
 };
 
+// What a ray needs to know of a mesh that deforms, between two keys.
+struct KernelInterval {
+  const TreeNode* nodes;
+  const MovingTriangleBlock* blocks;
+  TreeReference root;
+};
+
 // What a ray needs to know of an instance.
 struct KernelInstance {
-  enum class Space : std::uint32_t { world, translated, transformed };
+  enum class Space : std::uint32_t { world, translated, transformed, moving };
 
-  double world_to_object[3][4];
+  double world_to_object[3][4];  // where it doesn't move
   const TreeNode* nodes;
   const TriangleBlock* blocks;
-  TreeReference root;  // no_reference: not a mesh, its hits come from KernelScene::intersect_precisely alone
+  TreeReference
+      root;  // no_reference: a mesh that deforms, or its hits come from KernelScene::intersect_precisely alone
   std::uint32_t visibility;
   Space space;
   float reach;  // the largest coordinate of the mesh, without its sign
@@ -48,6 +57,9 @@ struct KernelInstance {
   // the others where their triangles start in it, or no_reference where they are not in it.
   const TriangleOwner* owners;
   std::uint32_t first_merged;
+  std::uint32_t interval_count;     // of a mesh that deforms: its trees, else 0
+  const KernelInterval* intervals;  // as many
+  const void* motion;               // for KernelScene::world_to_object_at
 };
 
 struct KernelScene {
@@ -60,6 +72,8 @@ struct KernelScene {
   // is none; the second the distance along a ray's line to a triangle's plane.
   bool (*intersect_precisely)(const void* owner, std::uint32_t instance, const KernelRay& ray, KernelHit& hit);
   double (*plane_distance)(const KernelInstance& instance, const KernelRay& ray, const float (&corners)[3][3]);
+  // Where an instance is that moves, at a ray's time.
+  void (*world_to_object_at)(const KernelInstance& instance, float time, double (&world_to_object)[3][4]);
 };
 
 // Rays and hits are read and written in the memory of Ray and Hit.

@@ -70,29 +70,36 @@ inline unsigned children_within(const Float8& entry, const Float8& exit) { retur
 // The numbers of the children that are met, farthest first, of which only the lowest three bits count.
 struct MetChildren {
   __m256i numbers;
-  std::uint32_t count;
+  unsigned places;  // bits: where they are in the node's order
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(_mm_popcnt_u32(places)); }
 };
 inline MetChildren met_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
                                 const Float8& exit) {
   const __m256i order = _mm256_srl_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.order)),
                                          _mm_cvtsi32_si128(static_cast<int>(octant_shift)));
   const unsigned mask = Mask8{_mm256_permutevar8x32_ps((entry <= exit).lanes, order)}.bits();
-  return {_mm256_permutevar8x32_epi32(order, compressing(mask)), static_cast<std::uint32_t>(_mm_popcnt_u32(mask))};
+  return {_mm256_permutevar8x32_epi32(order, compressing(mask)), mask};
 }
 inline std::uint32_t list_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
                                    const Float8& exit, std::uint32_t (&numbers)[8]) {
   const MetChildren met = met_children(node, octant_shift, entry, exit);
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(numbers), met.numbers);
-  return met.count;
+  return met.count();
 }
 
-inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
-                                   const Float8& exit, TreeReference* references, float* entries) {
+// How many children were pushed, and where the nearest is in the node's order.
+struct PushedChildren {
+  std::uint32_t count, nearest;
+};
+
+inline PushedChildren push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                    const Float8& exit, TreeReference* references, float* entries) {
   const MetChildren met = met_children(node, octant_shift, entry, exit);
   const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.children));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(references), _mm256_permutevar8x32_epi32(children, met.numbers));
   _mm256_storeu_ps(entries, _mm256_permutevar8x32_ps(entry.lanes, met.numbers));
-  return met.count;
+  return {met.count(), 31 - _lzcnt_u32(met.places | 1)};
 }
 
 inline std::uint32_t push_any_children(const TreeNode& node, const Float8& entry, const Float8& exit,

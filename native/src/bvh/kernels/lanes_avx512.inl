@@ -60,8 +60,13 @@ inline std::uint32_t push_compressed(__mmask8 mask, __m256i references, __m256 e
   return static_cast<std::uint32_t>(_mm_popcnt_u32(mask));
 }
 
-inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
-                                   const Float8& exit, TreeReference* references, float* entries) {
+// How many children were pushed, and where the nearest is in the node's order.
+struct PushedChildren {
+  std::uint32_t count, nearest;
+};
+
+inline PushedChildren push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                    const Float8& exit, TreeReference* references, float* entries) {
   // Permutations use the lowest three bits of each number.
   const __m256i order = _mm256_srl_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.order)),
                                          _mm_cvtsi32_si128(static_cast<int>(octant_shift)));
@@ -69,8 +74,9 @@ inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_sh
       _mm256_permutevar8x32_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.children)), order);
   const __m256 entry_distances = _mm256_permutevar8x32_ps(entry.lanes, order);
   const __m256 exit_distances = _mm256_permutevar8x32_ps(exit.lanes, order);
-  return push_compressed(_mm256_cmp_ps_mask(entry_distances, exit_distances, _CMP_LE_OQ), children, entry_distances,
-                         references, entries);
+  const __mmask8 mask = _mm256_cmp_ps_mask(entry_distances, exit_distances, _CMP_LE_OQ);
+  return {push_compressed(mask, children, entry_distances, references, entries),
+          31 - static_cast<std::uint32_t>(__builtin_clz(mask | 1u))};
 }
 
 // The numbers of the children that are met, farthest first, of which only the lowest three bits count.

@@ -31,20 +31,27 @@ inline std::uint32_t list_children(const TreeNode& node, std::uint32_t octant_sh
   return count;
 }
 
-inline std::uint32_t push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
-                                   const Float8& exit, TreeReference* references, float* entries) {
+// How many children were pushed, and where the nearest is in the node's order.
+struct PushedChildren {
+  std::uint32_t count, nearest;
+};
+
+inline PushedChildren push_children(const TreeNode& node, std::uint32_t octant_shift, const Float8& entry,
+                                    const Float8& exit, TreeReference* references, float* entries) {
   const unsigned hits = children_within(entry, exit);
   alignas(16) float distances[8];
   entry.halves[0].store(distances);
   entry.halves[1].store(distances + 4);
-  std::uint32_t count = 0;
-  for (const std::uint32_t order : node.order) {
-    const std::uint32_t child = order >> octant_shift & 7;
-    references[count] = node.children[child];
-    entries[count] = distances[child];
-    count += hits >> child & 1;
+  PushedChildren pushed{0, 0};
+  for (std::uint32_t place = 0; place < 8; ++place) {
+    const std::uint32_t child = node.order[place] >> octant_shift & 7;
+    const bool is_met = (hits >> child & 1) != 0;
+    references[pushed.count] = node.children[child];
+    entries[pushed.count] = distances[child];
+    pushed.count += is_met;
+    pushed.nearest = is_met ? place : pushed.nearest;
   }
-  return count;
+  return pushed;
 }
 
 inline std::uint32_t push_any_children(const TreeNode& node, const Float8& entry, const Float8& exit,

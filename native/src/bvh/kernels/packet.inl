@@ -337,6 +337,7 @@ class PacketWalk {
   bool visit_instance(std::uint32_t index, unsigned active, PacketItem* top) {
     const KernelInstance& instance = scene_.instances[index];
     if (!(kinds_ & instance.visibility)) return true;
+    if (instance.interval_count != 0) return false;  // deforms: left to the stream
     if (instance.root == no_reference) {
       for (unsigned ray = 0; ray < packet_size; ++ray)
         if (active >> ray & 1) intersect_precisely(index, ray);
@@ -378,7 +379,7 @@ class PacketWalk {
   void transform_all(const KernelInstance& instance) {
     for (unsigned lane = 0; lane < packet_size; ++lane) {
       LocalRay local;
-      transform(local, instance, packet_.rays[lane]);
+      transform(local, scene_, instance, packet_.rays[lane]);
       for (int axis = 0; axis < 3; ++axis) {
         scratch_.local_origin.axes[axis].lanes[lane] = local.origin[axis];
         scratch_.local_direction.axes[axis].lanes[lane] = local.direction[axis];

@@ -9,16 +9,19 @@ TreeReference visit_node_alone(Slot& slot, const TreeNode& node) {
   const unsigned met = children_within(entry, exit);
   if (met == 0) return slot.pop();
   if ((met & (met - 1)) == 0) return node.children[__builtin_ctz(met)];
-  Query::push(slot, node, entry, exit);
-  return slot.pop();
+  const TreeReference nearest = Query::push_but_nearest(slot, node, entry, exit);
+  prefetch_item(slot.items, *(slot.top - 1));
+  return nearest;
 }
 
 template <class Query>
 void walk_alone(const Steps<Query>& steps, std::size_t index, Slot& slot) {
   TreeReference next = steps.start(slot, index);
   while (next != end_of_ray) {
-    if (next < triangles_mark) {
+    if (next < moving_triangles_mark) {
       next = visit_node_alone<Query>(slot, slot.node(next));
+    } else if (next < triangles_mark) {
+      next = steps.test_moving(slot, next);
     } else if (next < instance_mark) {
       const TriangleBlock& block = slot.block(next);
       const TriangleHits hits = intersect_block(steps.scene, slot, block);

@@ -55,9 +55,9 @@ static_assert(__builtin_offsetof(Slot, items) == 56 && __builtin_offsetof(Slot, 
 // Nodes take up four cache lines, blocks and what kernels need of an instance three. Inlined by force: g++ 12 drops calls of what does nothing but
 // prefetch.
 [[gnu::always_inline]] inline void prefetch_item(const char* const (&items)[2], TreeReference reference) {
-  static constexpr std::size_t sizes[4] = {sizeof(TreeNode), sizeof(TreeNode), sizeof(TriangleBlock),
+  static constexpr std::size_t sizes[4] = {sizeof(TreeNode), sizeof(MovingTriangleBlock), sizeof(TriangleBlock),
                                            sizeof(KernelInstance)};
-  const std::uint32_t is_no_node = reference >> 31;
+  const std::uint32_t is_no_node = reference >> 30 != 0;
   const std::uint32_t index = reference < end_of_instance ? reference & reference_index : 0;
   const char* item = items[is_no_node] + index * sizes[reference >> 30];
   for (int line = 0; line < 3; ++line) __builtin_prefetch(item + 64 * line);
@@ -145,16 +145,43 @@ struct Steps {
   TreeReference enter(Slot& slot, std::uint32_t index) const {
     const KernelInstance& instance = scene.instances[index];
     if (!(slot.ray->kinds & instance.visibility)) return slot.pop();
-    if (instance.root == no_reference || !enter_instance(slot.boxes, slot.triangles, scene, index, *slot.ray))
-      return visit_precisely(slot, index);
-    // Where nothing else waits in the world, the ray ends with the instance.
-    if (!slot.has_only(1)) slot.push(end_of_instance, -1);
-    slot.items[0] = reinterpret_cast<const char*>(instance.nodes);
-    slot.items[1] = reinterpret_cast<const char*>(instance.blocks);
-    return instance.root;
+    if (instance.root == no_reference) return enter_special(slot, index);
+    if (!enter_instance(slot.boxes, slot.triangles, scene, index, *slot.ray)) return visit_precisely(slot, index);
+    return walk_instance(slot, instance.nodes, instance.blocks, instance.root);
+  }
+
+  // A block of triangles that move.
+  [[gnu::noinline]] TreeReference test_moving(Slot& slot, TreeReference reference) const {
+    const auto* blocks = reinterpret_cast<const MovingTriangleBlock*>(slot.items[1]);
+    const KernelInstance& instance = scene.instances[slot.triangles.instance];
+    const TriangleBlock block = block_at_time(blocks[reference & reference_index], instance, slot.ray->time);
+    const TriangleHits hits = intersect_block(scene, slot, block);
+    if (hits.is_hit.bits() != 0 && Query::take_hit(scene, slot, block, hits)) {
+      if (Query::ends_at_hit) return end_of_ray;
+      forget_farther(slot);
+    }
+    return slot.pop();
   }
 
  private:
+  template <class Block>
+  TreeReference walk_instance(Slot& slot, const TreeNode* nodes, const Block* blocks, TreeReference root) const {
+    // Where nothing else waits in the world, the ray ends with the instance.
+    if (!slot.has_only(1)) slot.push(end_of_instance, -1);
+    slot.items[0] = reinterpret_cast<const char*>(nodes);
+    slot.items[1] = reinterpret_cast<const char*>(blocks);
+    return root;
+  }
+
+  // An instance that is none of a still mesh.
+  [[gnu::noinline]] TreeReference enter_special(Slot& slot, std::uint32_t index) const {
+    const KernelInstance& instance = scene.instances[index];
+    if (instance.interval_count == 0 || !enter_instance(slot.boxes, slot.triangles, scene, index, *slot.ray))
+      return visit_precisely(slot, index);
+    const KernelInterval& interval = instance.intervals[key_interval(instance.interval_count, slot.ray->time).first];
+    return walk_instance(slot, interval.nodes, interval.blocks, interval.root);
+  }
+
   void walk_world(Slot& slot) const {
     slot.boxes = slot.world;
     slot.items[0] = reinterpret_cast<const char*>(scene.nodes);
@@ -181,7 +208,14 @@ struct NearestQuery {
 
   // Pushes the children that the ray meets.
   static void push(Slot& slot, const TreeNode& node, const Float8& entry, const Float8& exit) {
-    slot.top += push_children(node, slot.boxes.octant.order_shift, entry, exit, slot.top, slot.entries());
+    slot.top += push_children(node, slot.boxes.octant.order_shift, entry, exit, slot.top, slot.entries()).count;
+  }
+  // The same where it meets some, but returns the nearest. It is found in the node: sooner than on the stack, where it has just been written.
+  static TreeReference push_but_nearest(Slot& slot, const TreeNode& node, const Float8& entry, const Float8& exit) {
+    const std::uint32_t shift = slot.boxes.octant.order_shift;
+    const PushedChildren pushed = push_children(node, shift, entry, exit, slot.top, slot.entries());
+    slot.top += pushed.count - 1;
+    return node.children[node.order[pushed.nearest] >> shift & 7];
   }
 
   static bool take_hit(const KernelScene& scene, Slot& slot, const TriangleBlock& block, const TriangleHits& hits) {
@@ -207,6 +241,10 @@ struct AnyQuery {
   // In no order and without distances: what is met stays of interest till the end.
   static void push(Slot& slot, const TreeNode& node, const Float8& entry, const Float8& exit) {
     slot.top += push_any_children(node, entry, exit, slot.top);
+  }
+  static TreeReference push_but_nearest(Slot& slot, const TreeNode& node, const Float8& entry, const Float8& exit) {
+    push(slot, node, entry, exit);
+    return slot.pop();
   }
 
   static bool take_hit(const KernelScene&, Slot& slot, const TriangleBlock&, const TriangleHits& hits) {

@@ -53,7 +53,8 @@ inline bool is_usable_for_triangles(Float4 origin, Float4 direction) {
   const Float4 largest = Float4::all(largest_usable);
   const Mask4 is_small = (abs(origin) <= largest) & (abs(direction) <= largest);
   const Mask4 is_large = Float4::all(smallest_usable) <= abs(direction);
-  return ((is_small.bits() & 7) == 7) & ((is_large.bits() & 7) != 0);
+  const unsigned small = is_small.bits() & 7, large = is_large.bits() & 7;
+  return (small == 7) & (large != 0);
 }
 
 // Axes keep their handedness, so that all triangles of an instance are seen from the same side.
@@ -94,8 +95,13 @@ struct LocalRay {
   alignas(16) float origin[4], direction[4];
 };
 
-inline void transform(LocalRay& local, const KernelInstance& instance, const KernelRay& ray) {
-  const auto& m = instance.world_to_object;
+inline void transform(LocalRay& local, const KernelScene& scene, const KernelInstance& instance, const KernelRay& ray) {
+  const double (*m)[4] = instance.world_to_object;
+  double at_ray_time[3][4];
+  if (__builtin_expect(instance.space == KernelInstance::Space::moving, 0)) {
+    scene.world_to_object_at(instance, ray.time, at_ray_time);
+    m = at_ray_time;
+  }
   for (int i = 0; i < 3; ++i) {
     local.origin[i] = static_cast<float>(ray.origin[i] + m[i][3]);
     local.direction[i] = ray.direction[i];
@@ -120,7 +126,7 @@ inline bool enter_instance(BoxSpace& boxes, TriangleSpace& triangles, const Kern
   const float *origin = ray.origin, *direction = ray.direction;
   LocalRay local;
   if (instance.space != KernelInstance::Space::world) {
-    transform(local, instance, ray);
+    transform(local, scene, instance, ray);
     origin = local.origin;
     direction = local.direction;
   }

@@ -14,7 +14,7 @@ struct StreamScratch {
 // Slots that take the same step next.
 using Queue = Slot* [slot_count];
 
-// By the two highest bits of what is to be visited: nodes, blocks, and all else.
+// By the two highest bits of what is to be visited: nodes, blocks, and all else, which have the lower of these bits.
 struct QueueSizes {
   std::size_t nodes = 0, blocks = 0, others = 0;
 };
@@ -28,7 +28,7 @@ struct Queues {
     blocks[sizes.blocks] = slot;
     sizes.blocks += kind == 2;
     others[sizes.others] = slot;
-    sizes.others += kind == 3;
+    sizes.others += kind & 1;
   }
 };
 
@@ -105,7 +105,7 @@ class Stream {
     }
   }
 
-  // Instances are entered and left, rays end.
+  // Instances are entered and left, rays end, triangles that move are tested.
   [[gnu::noinline]] void visit_others() {
     const std::size_t count = sizes_.others;
     sizes_.others = 0;
@@ -116,8 +116,10 @@ class Stream {
         finish(slot);
       else if (current == end_of_instance)
         visit_next(slot, steps_.leave_instance(slot), sizes_);
-      else
+      else if (current >= instance_mark)
         visit_next(slot, steps_.enter(slot, current & reference_index), sizes_);
+      else
+        visit_next(slot, steps_.test_moving(slot, current), sizes_);
     }
   }
 

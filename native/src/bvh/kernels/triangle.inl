@@ -25,6 +25,20 @@ inline ShearedCorners shear(const TriangleBlock& block, const TriangleSpace& spa
   return corners;
 }
 
+// Triangles that move, at a ray's time: number for number as interpolate() in geometry/motion.h.
+inline TriangleBlock block_at_time(const MovingTriangleBlock& block, const KernelInstance& instance, float time) {
+  const Float4 fraction = Float4::all(key_interval(instance.interval_count, time).fraction);
+  TriangleBlock result;
+  for (int corner = 0; corner < 3; ++corner)
+    for (int axis = 0; axis < 3; ++axis) {
+      const Float4 start = Float4::load(block.corners[0][corner][axis]);
+      const Float4 end = Float4::load(block.corners[1][corner][axis]);
+      (start + (end - start) * fraction).store(result.corners[corner][axis]);
+    }
+  __builtin_memcpy(result.primitives, block.primitives, sizeof result.primitives);
+  return result;
+}
+
 // Which side of the three edges the ray passes, as areas that weigh the opposite corners.
 struct EdgeWeights {
   Float4 w[3];

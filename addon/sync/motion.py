@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What moves while the shutter is open: the scene is evaluated at further frames and followed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import bpy
+import numpy as np
+
+import basicrt
+
+from ..export import camera, mesh, motion
+from ..export.identity import uid
+from ..export.motion import Doubles, Shutter
+from ..report import Report
+
+# Evaluates the scene at a frame and a part of one, as RenderEngine.frame_set does.
+FrameSet = Callable[[int, float], None]
+# What tells placed objects apart at all frames.
+Key = tuple[int, int, tuple[int, ...]]
+
+
+def set_frame(frame_set: FrameSet, frame: float) -> None:
+    """Evaluate the scene at any frame."""
+    whole = math.floor(frame)
+    frame_set(whole, frame - whole)
+
+
+def key_of(b_instance: bpy.types.DepsgraphObjectInstance) -> Key:
+    """Of a placed object."""
+    b_object: Any = b_instance.object
+    if not b_instance.is_instance:
+        return uid(b_object), 0, ()
+    b_parent: Any = b_instance.parent
+    return uid(b_object), uid(b_parent), tuple(b_instance.persistent_id)
+
+
+@dataclass
+class _Instance:
+    """An instance of the scene that may move."""
+
+    index: int  # in Scene.instances
+    name: str
+    intervals: int
+    matrices: dict[int, Doubles] = field(default_factory=dict)  # by the number of the key
+
+
+@dataclass
+class _Shape:
+    """A shape of the scene that may deform."""
+
+    index: int  # in Scene.shapes
+    name: str
+    intervals: int
+    topology: mesh.Topology
+    moments: dict[int, mesh.Moment | None] = field(default_factory=dict)
+
+
+class MotionExport:
+    """Follows objects, their meshes and the camera over the shutter's time.
+
+    First everything is exported half-way and noted here; then follow() evaluates the other frames.
+    """
+
+    def __init__(self, scene: basicrt.Scene, shutter: Shutter, report: Report) -> None:
+        self._scene = scene
+        self._shutter = shutter
+        self._report = report
+        self._instances: dict[Key, _Instance] = {}
+        self._shapes: dict[Key, _Shape] = {}  # by one object that shows it
+        self._known_shapes: set[int] = set()
+
+    def note(
+        self, b_instance: bpy.types.DepsgraphObjectInstance, b_scene: Any, instance: int, shape: int
+    ) -> None:
+        """Remember a mesh object that was exported as that instance of that shape."""
+        b_object: Any = b_instance.object
+        b_parent = b_instance.parent if b_instance.is_instance else None
+        intervals = motion.intervals(b_object, b_parent)
+        if intervals == 0:
+            return
+        key, name = key_of(b_instance), f'object "{b_object.name}"'
+        self._instances[key] = _Instance(instance, name, intervals)
+        is_new = shape not in self._known_shapes and not b_object.data.is_editmode
+        if is_new and motion.is_deforming(b_object, b_parent, b_scene):
+            self._known_shapes.add(shape)
+            self._shapes[key] = _Shape(shape, name, intervals, mesh.topology(b_object.data))
+
+    def follow(
+        self, depsgraph: bpy.types.Depsgraph, b_camera: bpy.types.Object, frame_set: FrameSet
+    ) -> None:
+        """Give the scene its motion. Leaves the dependency graph at the last frame."""
+        b_original: Any = b_camera.original
+        camera_intervals = motion.intervals(b_original, None)
+        most = max([camera_intervals, *(one.intervals for one in self._instances.values())])
+        if most == 0:
+            return
+        cameras: dict[int, tuple[Doubles, camera.Window]] = {}
+        # Half-way is where the scene is already.
+        for number in [most // 2, *(i for i in range(most + 1) if i != most // 2)]:
+            if number != most // 2:
+                set_frame(frame_set, self._shutter.frame(number / most))
+            b_evaluated = b_original.evaluated_get(depsgraph)
+            b_scene: Any = depsgraph.scene_eval
+            cameras[number] = (
+                camera.transform(b_evaluated),
+                camera.window(b_evaluated.data, b_scene.render),
+            )
+            self._take(depsgraph, number, most)
+        self._move_camera(cameras, most, camera_intervals, f'camera "{b_original.name}"')
+        for instance in self._instances.values():
+            self._move_instance(instance, most)
+        for shape in self._shapes.values():
+            self._deform_shape(shape, most)
+
+    def _take(self, depsgraph: bpy.types.Depsgraph, number: int, most: int) -> None:
+        """Note where everything is at the key of that number among 0 to `most`."""
+        for b_instance in depsgraph.object_instances:
+            b_object: Any = b_instance.object
+            if b_object.type != "MESH" or not b_instance.show_self:
+                continue
+            key = key_of(b_instance)
+            instance, shape = self._instances.get(key), self._shapes.get(key)
+            if instance is not None and number % (most // instance.intervals) == 0:
+                instance.matrices[number] = np.array(b_instance.matrix_world, np.float64)
+            if shape is not None and number % (most // shape.intervals) == 0:
+                shape.moments[number] = mesh.moment(b_object.data, shape.topology)
+
+    def _move_camera(
+        self, cameras: dict[int, tuple[Doubles, camera.Window]], most: int, count: int, item: str
+    ) -> None:
+        if count == 0:
+            return
+        numbers = range(0, most + 1, most // count)
+        if any(cameras[number][1] != cameras[0][1] for number in numbers):
+            self._report.warn(item, "changes of its lens are not blurred")
+        keys = _keys_of([cameras[number][0] for number in numbers])
+        if keys is not None:
+            moved = self._scene.camera
+            assert moved is not None
+            moved.transform, moved.motion_transforms = keys[0], list(keys[1:])
+            self._scene.camera = moved
+
+    def _move_instance(self, instance: _Instance, most: int) -> None:
+        numbers = range(0, most + 1, most // instance.intervals)
+        if any(number not in instance.matrices for number in numbers):
+            self._warn(instance.name, "appears or disappears while the shutter is open")
+            return
+        keys = _keys_of([instance.matrices[number] for number in numbers])
+        if keys is None:
+            return
+        if not all(np.isfinite(key).all() and np.linalg.det(key[:3, :3]) != 0 for key in keys):
+            self._warn(instance.name, "is scaled to nothing while the shutter is open")
+            return
+        moved = self._scene.instances[instance.index]
+        moved.transform, moved.motion_transforms = keys[0], list(keys[1:])
+        self._scene.instances[instance.index] = moved
+
+    def _deform_shape(self, shape: _Shape, most: int) -> None:
+        numbers = range(0, most + 1, most // shape.intervals)
+        moments = [shape.moments.get(number) for number in numbers]
+        present = [moment for moment in moments if moment is not None]
+        if len(present) == len(moments) and _are_equal(present):
+            return
+        still = self._scene.shapes[shape.index]
+        assert isinstance(still, basicrt.Mesh)
+        moved = mesh.deforming(still, present) if len(present) == len(moments) else None
+        if moved is None:
+            self._warn(shape.name, "its mesh becomes another one while the shutter is open")
+        else:
+            self._scene.shapes[shape.index] = moved
+
+    def _warn(self, item: str, reason: str) -> None:
+        self._report.warn(item, f"{reason}: it stands still")
+
+
+def _keys_of(matrices: list[Doubles]) -> Doubles | None:
+    """The keys of what goes through these transforms, None where it doesn't move."""
+    if all(np.array_equal(matrix, matrices[0]) for matrix in matrices):
+        return None
+    if not all(np.isfinite(matrix).all() for matrix in matrices):
+        return np.array(matrices)
+    return motion.object_keys(matrices)
+
+
+def _are_equal(moments: list[mesh.Moment]) -> bool:
+    return all(np.array_equal(moment.positions, moments[0].positions) for moment in moments)

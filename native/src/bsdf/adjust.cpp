@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Changes to a Bsdf that the path asks for and the material knows nothing of: roughening, and leaving out caustics.
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+
+#include "base/overloaded.h"
+#include "bsdf/bsdf.h"
+
+namespace basicrt {
+
+// All lobes again, each after `change`, which may say (by false) that it is left out.
+void Bsdf::rebuild(auto&& change) {
+  const LobeList old = lobes_;
+  lobes_.count = 0;
+  selection_ = 0;
+  has_only_deltas_ = true;
+  for (const WeightedLobe& weighted : old.used()) {
+    WeightedLobe changed = weighted;
+    if (!std::visit(change, changed.lobe)) continue;
+    lobes_.append(changed);
+    selection_ += changed.selection;
+    has_only_deltas_ = has_only_deltas_ && std::visit([](const auto& lobe) { return lobe.is_delta(); }, changed.lobe);
+  }
+}
+
+void Bsdf::roughen(float least_alpha) {
+  const auto at_least = [&](float& alpha) { alpha = std::max(alpha, least_alpha); };
+  rebuild(Overloaded{[](Lambert&) { return true; }, [](Transparent&) { return true; },
+                     [&](Dielectric& lobe) {
+                       at_least(lobe.alpha);
+                       return true;
+                     },
+                     [&]<class Fresnel>(MicrofacetReflection<Fresnel>& lobe) {
+                       at_least(lobe.microfacets.alpha_x);
+                       at_least(lobe.microfacets.alpha_y);
+                       return true;
+                     }});
+}
+
+void Bsdf::remove_glossy(bool removes_reflection, bool removes_transmission) {
+  rebuild(Overloaded{[](Lambert&) { return true; }, [](Transparent&) { return true; },
+                     [&](Dielectric& lobe) {
+                       if (removes_reflection) lobe.reflect_tint = Color(0.0f);
+                       if (removes_transmission) lobe.transmit_tint = Color(0.0f);
+                       return !(removes_reflection && removes_transmission);
+                     },
+                     [&]<class Fresnel>(MicrofacetReflection<Fresnel>&) { return !removes_reflection; }});
+}
+
+void Bsdf::remove_opaque() {
+  rebuild([]<class AnyLobe>(AnyLobe&) { return std::is_same_v<AnyLobe, Transparent>; });
+}
+
+float Bsdf::transmission_alpha() const {
+  float least = std::numeric_limits<float>::infinity();
+  for (const WeightedLobe& weighted : lobes_.used())
+    if (const auto* lobe = std::get_if<Dielectric>(&weighted.lobe)) least = std::min(least, lobe->alpha);
+  return least;
+}
+
+}  // namespace basicrt

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a ray sees that hits nothing: the same radiance from everywhere, and pictures around the scene.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "base/describe.h"
+#include "image/image_lookup.h"
+#include "math/color.h"
+#include "math/transform.h"
+
+namespace basicrt {
+
+// How a direction finds its place in a picture. Equirectangular: u = 1/2 - longitude / 2 pi, v = latitude / pi + 1/2,
+// so that z is up and x lies in the middle. Mirror ball: as a camera that looks along y sees it in a mirror sphere.
+enum class EnvironmentProjection : std::uint8_t { equirectangular, mirror_ball };
+template <>
+inline constexpr std::array enum_names<EnvironmentProjection> =
+    std::to_array<std::string_view>({"equirectangular", "mirror_ball"});
+
+enum class EnvironmentRays : std::uint8_t { all, camera, scattered };
+template <>
+inline constexpr std::array enum_names<EnvironmentRays> =
+    std::to_array<std::string_view>({"all", "camera", "scattered"});
+
+// All layers that a ray sees add up.
+struct EnvironmentLayer {
+  Color radiance{1.0f};
+  Image image;  // none: the same from everywhere
+  EnvironmentProjection projection = EnvironmentProjection::equirectangular;
+  ImageInterpolation interpolation = ImageInterpolation::linear;
+  Transform to_image;  // of a direction of unit length, as if that were a point
+  EnvironmentRays seen_by = EnvironmentRays::all;
+  static constexpr auto fields() {
+    using L = EnvironmentLayer;
+    return std::tuple{
+        field("radiance", &L::radiance, "W / (m^2 sr); multiplies the image where there is one", at_least(0)),
+        field("projection", &L::projection, "of the image: equirectangular or mirror_ball"),
+        field("interpolation", &L::interpolation, "between pixels: linear, closest or cubic"),
+        field("transform", &L::to_image, "of a direction, as a point, before the image is looked up"),
+        field("seen_by", &L::seen_by, "which rays see it: all, those from the camera, or those that have scattered")};
+  }
+};
+
+struct Environment {
+  Color radiance{0.0f};
+  std::vector<EnvironmentLayer> layers;
+  static constexpr auto fields() {
+    return std::tuple{field("radiance", &Environment::radiance, "W / (m^2 sr), each direction alike", at_least(0))};
+  }
+};
+
+// For a direction in the layer's own space, of any length.
+[[nodiscard]] Vec2f project_direction(EnvironmentProjection projection, Vec3f direction);
+
+// What arrives from a direction of unit length, by whatever rays see the layer.
+[[nodiscard]] Color eval_layer(const EnvironmentLayer& layer, Vec3f direction);
+[[nodiscard]] Color eval_environment(const Environment& environment, Vec3f direction, bool is_camera_ray);
+
+}  // namespace basicrt

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings and objects that change the picture, against Cycles with the same of them.
+
+Both engines read the same `scene.cycles.*`: ours were never changed.
+"""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+
+from support.blender import (
+    add_camera,
+    add_lamp,
+    add_mesh,
+    add_node,
+    add_plane,
+    empty_material,
+    new_material,
+    new_scene,
+    render,
+    set_world,
+)
+
+pytestmark = pytest.mark.skipif(
+    bpy.app.version[:2] != (5, 0), reason="compared in one version: 5.0"
+)
+SEEDS = 4
+
+
+def neutral_scene(size: int = 16, samples: int = 64) -> Any:
+    """A scene whose Cycles settings, which both engines read, are neutral."""
+    scene = new_scene(size, size)
+    scene.basicrt.property_unset("samples")
+    cycles = scene.cycles
+    cycles.device, cycles.samples = "CPU", samples
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
+    return scene
+
+
+def both(scene: Any, folder: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Ours and Cycles' pictures: (seeds, height, width, 4)."""
+    pictures = []
+    for engine in ("BASICRT", "CYCLES"):
+        scene.render.engine = engine
+        stack = []
+        for seed in range(SEEDS):
+            scene.cycles.seed = seed
+            stack.append(render(folder).astype(float))
+        pictures.append(np.array(stack))
+    return pictures[0], pictures[1]
+
+
+def expect_alike(ours: np.ndarray, theirs: np.ndarray, relative: float, cells: int = 4) -> None:
+    """Means over cells agree within the seeds' scatter and a share of the picture's mean."""
+    count, height, width, channels = ours.shape
+    means = [
+        p.reshape(count, cells, height // cells, cells, width // cells, channels).mean(axis=(2, 4))
+        for p in (ours, theirs)
+    ]
+    difference = means[0].mean(axis=0) - means[1].mean(axis=0)
+    variance = sum(m.var(axis=0, ddof=1) for m in means)
+    error = np.sqrt(np.maximum(variance, variance.mean() / 4) / count)
+    tolerance = 5 * error + relative * np.abs(means[1]).mean()
+    worst = np.unravel_index((np.abs(difference) / tolerance).argmax(), difference.shape)
+    assert (np.abs(difference) <= tolerance).all(), (
+        f"cell {worst}: {means[0].mean(axis=0)[worst]:.5g}, Cycles {means[1].mean(axis=0)[worst]:.5g}"
+    )
+
+
+def add_smooth_ball(segments: int, rings: int, material: Any) -> Any:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=segments, ring_count=rings, radius=1)
+    ball = bpy.context.object
+    ball.data.materials.append(material)
+    ball.data.shade_smooth()
+    return ball
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.2])
+def test_a_smooth_shaded_ball_under_grazing_sun(angle: float, tmp_path: Path) -> None:
+    scene = neutral_scene(24, samples=64)
+    scene.cycles.max_bounces = 0
+    add_smooth_ball(16, 8, new_material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.8, 0.8)))
+    add_lamp("SUN", rotation=(math.radians(80), 0, math.radians(20)), energy=3, angle=angle)
+    add_camera(ortho_scale=2.2)
+    ours, theirs = both(scene, tmp_path)
+    assert abs(ours[..., :3].mean() / theirs[..., :3].mean() - 1) < 2e-3
+    expect_alike(ours, theirs, relative=0.004, cells=8)
+
+
+def glass_over_floor() -> None:
+    add_plane(6, 0, new_material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.8, 0.8)))
+    ball = add_smooth_ball(
+        32, 16, new_material("ShaderNodeBsdfGlass", Color=(1, 1, 1), Roughness=0.3, IOR=1.4)
+    )
+    ball.location.z = 1.2
+    mirror = add_plane(
+        2, 1, new_material("ShaderNodeBsdfAnisotropic", Color=(0.9, 0.9, 0.9), Roughness=0.2)
+    )
+    mirror.location, mirror.rotation_euler = (-1.8, 0, 1), (0, math.radians(75), 0)
+    add_lamp("AREA", (0, 0, 4), energy=200, size=2)
+    add_camera((0, -6, 5), (math.radians(52), 0, 0), kind="PERSP")
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("no caustics", {"caustics_reflective": False, "caustics_refractive": False}),
+        ("no refractive caustics", {"caustics_refractive": False}),
+        ("filter glossy", {"blur_glossy": 1.0}),
+        ("light threshold", {"light_sampling_threshold": 0.5}),
+        ("clamped direct light", {"sample_clamp_direct": 0.3, "light_sampling_threshold": 0.0}),
+    ],
+)
+def test_light_paths_change_the_picture_as_in_cycles(
+    name: str, change: dict[str, Any], tmp_path: Path
+) -> None:
+    scene = neutral_scene(16, samples=256)
+    for key, value in change.items():
+        setattr(scene.cycles, key, value)
+    glass_over_floor()
+    expect_alike(*both(scene, tmp_path), relative=0.02)
+
+
+def half_holdout() -> Any:
+    material, tree, output = empty_material("Half")
+    mix = add_node(tree, "ShaderNodeMixShader", Fac=0.25)
+    tree.links.new(add_node(tree, "ShaderNodeHoldout").outputs[0], mix.inputs[1])
+    shine = add_node(tree, "ShaderNodeEmission", Color=(1, 0.5, 0.2), Strength=2.0)
+    tree.links.new(shine.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], output.inputs["Surface"])
+    return material
+
+
+def holdout_node() -> None:
+    add_plane(1, 0, half_holdout())
+
+
+def holdout_object() -> None:
+    add_plane(6, -1, new_material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.2, 0.2)))
+    add_plane(1, 0, new_material("ShaderNodeBsdfDiffuse")).is_holdout = True
+
+
+def glass_pane(roughness: float) -> Callable[[], None]:
+    def build() -> None:
+        pane = new_material(
+            "ShaderNodeBsdfRefraction", Color=(0.6, 0.6, 0.6), IOR=1.1, Roughness=roughness
+        )
+        add_plane(1, 0, pane)
+
+    return build
+
+
+@pytest.mark.parametrize("is_transparent", [True, False])
+@pytest.mark.parametrize(
+    "build",
+    [holdout_node, holdout_object, glass_pane(0.0), glass_pane(0.3), glass_pane(0.4)],
+    ids=["holdout node", "holdout object", "clear glass", "glass", "rough glass"],
+)
+def test_holes_in_the_film(build: Callable[[], None], is_transparent: bool, tmp_path: Path) -> None:
+    scene = neutral_scene(16, samples=64)
+    scene.render.film_transparent = is_transparent
+    scene.cycles.film_transparent_glass = True
+    set_world((0.3, 0.5, 0.7))
+    build()
+    add_camera(ortho_scale=2)
+    expect_alike(*both(scene, tmp_path), relative=0.004)
+
+
+@pytest.mark.parametrize("is_transparent", [True, False])
+def test_a_shadow_catcher(is_transparent: bool, tmp_path: Path) -> None:
+    scene = neutral_scene(16, samples=256)
+    scene.render.film_transparent = is_transparent
+    set_world((0.3, 0.5, 0.7), 0.5)
+    floor = add_plane(20, 0, new_material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.8, 0.8)))
+    floor.is_shadow_catcher = True
+    shade = add_plane(1, 1, new_material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.1, 0.1)))
+    shade.location.x = 0.8
+    add_lamp("SUN", rotation=(0, math.radians(45), 0), energy=2)
+    add_camera(ortho_scale=4)
+    expect_alike(*both(scene, tmp_path), relative=0.01)
+
+
+@pytest.mark.parametrize(
+    ("kind", "width"),
+    [("BLACKMAN_HARRIS", 1.5), ("BLACKMAN_HARRIS", 4.0), ("GAUSSIAN", 1.5), ("BOX", 3.0)],
+)
+def test_pixel_filters(kind: str, width: float, tmp_path: Path) -> None:
+    scene = neutral_scene(16, samples=512)
+    scene.cycles.pixel_filter_type, scene.cycles.filter_width = kind, width
+    shine = new_material("ShaderNodeEmission", Color=(1, 1, 1), Strength=1.0)
+    add_mesh([(0.03, -5, 0), (5, -5, 0), (5, 5, 0), (0.03, 5, 0)], [(0, 1, 2, 3)], shine)
+    add_camera(ortho_scale=2)
+    ours, theirs = (picture.mean(axis=(0, 1))[:, 0] for picture in both(scene, tmp_path))
+    assert np.abs(ours - theirs).max() < 0.006
