@@ -40,6 +40,21 @@ bool TileRender::is_done() const { return has_converged_ || next_round_ == plan_
 
 std::uint64_t TileRender::take_spared() { return std::exchange(spared_, 0); }
 
+// Inlined by force: a call for each sample costs 3 % of a simple picture.
+[[gnu::always_inline]] inline void TileRender::add_path(Worker& worker, int x, int y, const Sampler& pixel_sample) {
+  Sampler sampler = pixel_sample;
+  const Vec2f center{static_cast<float>(rect_.x + x) + 0.5f, static_cast<float>(rect_.y + y) + 0.5f};
+  const FilterSample place = filter_.sample(sampler.next_2d());
+  if (scene_.view.is_pinhole() && !scene_.has_motion)
+    append_result(worker.paths.rays, [&] { return scene_.view.ray(center + place.offset); });
+  else if (const std::optional<Ray> ray = camera_ray(scene_, center + place.offset, sampler))
+    worker.paths.rays.push_back(*ray);
+  else
+    return add_unseen(worker, x, y, place.is_negative);
+  worker.paths.samplers.push_back(sampler);
+  worker.places.push_back({x, y, place.is_negative});
+}
+
 bool TileRender::render_round(Worker& worker, const std::function<bool(std::uint64_t)>& go_on) {
   const RenderSettings& settings = scene_.settings;
   const int begin = next_round_ == 0 ? 0 : plan_.round_ends[next_round_ - 1], end = plan_.round_ends[next_round_];
@@ -63,20 +78,6 @@ bool TileRender::render_round(Worker& worker, const std::function<bool(std::uint
   if (!render_batch()) return false;
   if (noise_ && end >= plan_.adaptive_min_samples) look_at_noise();
   return true;
-}
-
-void TileRender::add_path(Worker& worker, int x, int y, const Sampler& pixel_sample) {
-  Sampler sampler = pixel_sample;
-  const Vec2f center{static_cast<float>(rect_.x + x) + 0.5f, static_cast<float>(rect_.y + y) + 0.5f};
-  const FilterSample place = filter_.sample(sampler.next_2d());
-  if (scene_.view.is_pinhole() && !scene_.has_motion)
-    append_result(worker.paths.rays, [&] { return scene_.view.ray(center + place.offset); });
-  else if (const std::optional<Ray> ray = camera_ray(scene_, center + place.offset, sampler))
-    worker.paths.rays.push_back(*ray);
-  else
-    return add_unseen(worker, x, y, place.is_negative);
-  worker.paths.samplers.push_back(sampler);
-  worker.places.push_back({x, y, place.is_negative});
 }
 
 void TileRender::add_unseen(Worker& worker, int x, int y, bool is_negative) {

@@ -39,6 +39,12 @@ struct Float8 {
   friend Mask8 operator<(Float8 a, Float8 b) { return {_mm256_cmp_ps(a.lanes, b.lanes, _CMP_LT_OQ)}; }
   friend Mask8 operator==(Float8 a, Float8 b) { return {_mm256_cmp_ps(a.lanes, b.lanes, _CMP_EQ_OQ)}; }
   unsigned sign_bits() const { return static_cast<unsigned>(_mm256_movemask_ps(lanes)); }
+  float smallest() const {
+    return Float4{_mm_min_ps(_mm256_castps256_ps128(lanes), _mm256_extractf128_ps(lanes, 1))}.smallest();
+  }
+  float largest() const {
+    return Float4{_mm_max_ps(_mm256_castps256_ps128(lanes), _mm256_extractf128_ps(lanes, 1))}.largest();
+  }
 };
 
 // What packets have in each lane a ray of.

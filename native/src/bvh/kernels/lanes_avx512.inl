@@ -47,6 +47,8 @@ struct Float16 {
   friend Mask16 operator<(Float16 a, Float16 b) { return {_mm512_cmp_ps_mask(a.lanes, b.lanes, _CMP_LT_OQ)}; }
   friend Mask16 operator==(Float16 a, Float16 b) { return {_mm512_cmp_ps_mask(a.lanes, b.lanes, _CMP_EQ_OQ)}; }
   unsigned sign_bits() const { return _mm512_movepi32_mask(_mm512_castps_si512(lanes)); }
+  float smallest() const { return _mm512_reduce_min_ps(lanes); }
+  float largest() const { return _mm512_reduce_max_ps(lanes); }
 };
 
 // What packets have in each lane a ray of.

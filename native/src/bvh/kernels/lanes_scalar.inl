@@ -96,6 +96,11 @@ struct Float4 {
     for (int i = 1; i < 4; ++i) result = lanes[i] < result ? lanes[i] : result;
     return result;
   }
+  float largest() const {
+    float result = lanes[0];
+    for (int i = 1; i < 4; ++i) result = lanes[i] > result ? lanes[i] : result;
+    return result;
+  }
 };
 
 inline Mask4 equal(const std::uint32_t* from, std::uint32_t value) {

@@ -49,6 +49,10 @@ struct Float4 {
     const __m128 pairs = _mm_min_ps(lanes, _mm_movehl_ps(lanes, lanes));
     return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_movehdup_ps(pairs)));
   }
+  float largest() const {
+    const __m128 pairs = _mm_max_ps(lanes, _mm_movehl_ps(lanes, lanes));
+    return _mm_cvtss_f32(_mm_max_ss(pairs, _mm_movehdup_ps(pairs)));
+  }
 };
 
 inline Mask4 equal(const std::uint32_t* aligned, std::uint32_t value) {

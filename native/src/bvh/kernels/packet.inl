@@ -57,33 +57,18 @@ inline bool have_same_sign(Pack values) {
   return (signs == 0) | (signs == all_lanes);
 }
 
-struct Range {
-  float least, most;
-};
-inline Range range_of(Pack values) {
-  PackFloats numbers;
-  values.store(numbers.lanes);
-  Range range{numbers.lanes[0], numbers.lanes[0]};
-  for (unsigned lane = 1; lane < packet_size; ++lane) {
-    const float number = numbers.lanes[lane];
-    range.least = number < range.least ? number : range.least;
-    range.most = number > range.most ? number : range.most;
-  }
-  return range;
-}
-
 inline void set_bounds(PacketSpace& space) {
   auto& bounds = space.bounds;
   for (int axis = 0; axis < 3; ++axis) {
-    const Range entry = range_of(space.entry_origin[axis]), exit = range_of(space.exit_origin[axis]);
-    const Range inverse = range_of(space.inverse_direction[axis]);
-    const bool goes_down = inverse.most < 0;
-    bounds.entry_origin[axis] = goes_down ? entry.least : entry.most;
-    bounds.exit_origin[axis] = goes_down ? exit.most : exit.least;
-    bounds.least_inverse[axis] = inverse.least;
-    bounds.most_inverse[axis] = inverse.most;
+    const Pack entry = space.entry_origin[axis], exit = space.exit_origin[axis],
+               inverse = space.inverse_direction[axis];
+    bounds.least_inverse[axis] = inverse.smallest();
+    bounds.most_inverse[axis] = inverse.largest();
+    const bool goes_down = bounds.most_inverse[axis] < 0;
+    bounds.entry_origin[axis] = goes_down ? entry.smallest() : entry.largest();
+    bounds.exit_origin[axis] = goes_down ? exit.largest() : exit.smallest();
   }
-  bounds.begin = range_of(space.begin).least;
+  bounds.begin = space.begin.smallest();
 }
 
 // A child is met by no ray where entry > exit, for rounding keeps the order of numbers.
@@ -203,7 +188,7 @@ class PacketWalk {
     t_min_ = max(begin, zero);
     world_.begin = t_min_;
     packet_.t = min(end, Pack::all(__FLT_MAX__));
-    t_max_ = range_of(packet_.t).most;
+    t_max_ = packet_.t.largest();
     packet_.u = packet_.v = zero;
     packet_.primitive = packet_.instance = pack_of_bits(~0u);
     return true;
@@ -274,7 +259,8 @@ class PacketWalk {
     }
   }
 
-  void visit_triangle(const PacketSpace& space, const TriangleBlock& block, unsigned lane, unsigned active) {
+  [[gnu::always_inline]] void visit_triangle(const PacketSpace& space, const TriangleBlock& block, unsigned lane,
+                                             unsigned active) {
     Pack x[3], y[3], z[3];
     for (int i = 0; i < 3; ++i) {
       const float* corner = &block.corners[i][0][lane];
@@ -311,7 +297,7 @@ class PacketWalk {
     packet_.v = select(mask, v, packet_.v);
     packet_.primitive = select(mask, pack_of_bits(primitive), packet_.primitive);
     packet_.instance = select(mask, pack_of_bits(instance), packet_.instance);
-    t_max_ = range_of(packet_.t).most;
+    t_max_ = packet_.t.largest();
   }
 
   // One ray and one triangle, as the stream tests them.
