@@ -124,7 +124,9 @@ def make_cycles_neutral(scene: Any) -> None:
     cycles.transparent_max_bounces = own.transparent_bounces
     cycles.pixel_filter_type, cycles.filter_width = own.filter_type, own.filter_width
     for made in scene.objects:
-        made.shadow_terminator_geometry_offset = made.shadow_terminator_shading_offset = 0
+        has_offsets = hasattr(made, "shadow_terminator_geometry_offset")
+        offsets: Any = made if has_offsets else made.cycles  # Cycles' own before 4.3
+        offsets.shadow_terminator_geometry_offset = offsets.shadow_terminator_shading_offset = 0
 
 
 def render_both(folder: Path) -> tuple[np.ndarray, np.ndarray]:
