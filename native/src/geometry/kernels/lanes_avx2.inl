@@ -59,7 +59,9 @@ struct Doubles {
 // Three numbers, and no more, are read at each place.
 inline void load_columns(const float* const (&rows)[4], Floats& x, Floats& y, Floats& z) {
   const auto row = [&](int i) {
-    const __m128 two = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(rows[i])));
+    double pair;  // two floats: their memory is not aligned for a double
+    __builtin_memcpy(&pair, rows[i], sizeof pair);
+    const __m128 two = _mm_castpd_ps(_mm_set_sd(pair));
     return _mm_insert_ps(two, _mm_load_ss(rows[i] + 2), 0x20);
   };
   const __m128 a = row(0), b = row(1), c = row(2), d = row(3);
