@@ -2,7 +2,7 @@
 # The commands of this project. Each one sets up what it needs first; the work is in tools/*.py.
 PYTHON ?= python3
 
-.PHONY: help demo test build lint format stubs extension asan tsan setup clean
+.PHONY: help demo test build lint format stubs extension asan tsan nightly setup clean
 
 help:            ## list the commands
 	@sed -n 's/^\([a-z]*\): *## /make \1  - /p' $(MAKEFILE_LIST)
@@ -33,6 +33,9 @@ asan:            ## C++ tests under the address and undefined-behaviour sanitize
 
 tsan:            ## C++ tests under the thread sanitizer
 	@$(PYTHON) tools/run_tests.py tsan
+
+nightly:         ## the comparison with Cycles over scenes/blender/families.py, on pictures four times as wide and high
+	@BASICRT_BIAS_SCALE=4 $(PYTHON) tools/run_tests.py wheels blender-5.0
 
 setup:           ## only install what the other commands need
 	@$(PYTHON) tools/bootstrap.py

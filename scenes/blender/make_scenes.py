@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the .blend files beside this script, so that a change to a scene can be read here.
 
-    python scenes/blender/make_scenes.py [NAME ...]
+    python scenes/blender/make_scenes.py [--folder FOLDER] [NAME ...]
 
 with a Python that has Blender's module of version 4.2 (`pip install bpy==4.2.*`): files of a newer Blender do
-not open in 4.2. Each scene is a module here with a function `build()`; `stage.py` holds what they share.
+not open in 4.2. Each scene is a module here with a function `build()`; `stage.py` holds what they share. With
+a folder of your own, of any version, and of the scenes in `families.py` too.
 """
 
 from __future__ import annotations
 
+import argparse
 import importlib
 import shutil
 import sys
@@ -29,14 +31,20 @@ def register_addon() -> object:
     return addon
 
 
-def make(name: str) -> None:
+def build(name: str, scene: bpy.types.Scene) -> None:
+    """Fill an empty scene."""
+    families = importlib.import_module("families").SCENES
+    (families[name] if name in families else importlib.import_module(name).build)(scene)
+
+
+def make(name: str, target: Path) -> None:
     """Build one scene from nothing and save it."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.context.preferences.filepaths.save_version = 0
     scene = bpy.context.scene
     scene.render.engine = "BASICRT"
-    importlib.import_module(name).build(scene)
-    path = FOLDER / f"{name}.blend"
+    build(name, scene)
+    path = target / f"{name}.blend"
     with tempfile.TemporaryDirectory() as folder:
         # A file remembers where it was saved, which is nobody's business: not in this checkout.
         saved = Path(folder) / path.name
@@ -45,20 +53,26 @@ def make(name: str) -> None:
     print(f"wrote {path} ({path.stat().st_size // 1024} KiB)")
 
 
-def main(names: list[str]) -> None:
-    """Make the named scenes, or all of them."""
-    if bpy.app.version[:2] != (4, 2):
+def main() -> None:
+    """Make the named scenes, or all that are kept here."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("name", nargs="*")
+    parser.add_argument("--folder", type=Path, default=FOLDER)
+    arguments = parser.parse_args()
+    if arguments.folder == FOLDER and bpy.app.version[:2] != (4, 2):
         sys.exit(
             f"needs Blender 4.2, this is {bpy.app.version_string}: newer files do not open in it"
         )
     sys.path.insert(0, str(FOLDER))
     addon = register_addon()
     try:
-        for name in names or SCENES:
-            make(name)
+        for name in arguments.name or SCENES:
+            make(name, arguments.folder)
     finally:
         addon.unregister()  # type: ignore[attr-defined]
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -268,6 +268,10 @@ def test_lookups_are_as_in_cycles(interpolation: str, extension: str, tmp_path: 
 def test_alpha_is_as_in_cycles(
     is_float: bool, alpha_mode: str, is_alpha_used: bool, tmp_path: Path
 ) -> None:
+    if bpy.app.version >= (5, 2) and alpha_mode == ("STRAIGHT" if is_float else "PREMUL"):
+        # It multiplies straight floats once more, and takes bytes that Blender divided by alpha as they are. With the
+        # same picture in a file it does neither.
+        pytest.skip("the Cycles of Blender 5.2 means something else by images in memory")
     picture = np.random.default_rng(4).random((5, 4, 4))
     image = new_image(picture, "sRGB", is_float=is_float)
     image.alpha_mode = alpha_mode

@@ -72,7 +72,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     if (path.shows_film) cut_out(path, point, -ray.direction, shading, sample);
     if (softens_caustics_) soften_caustics(scene_.settings, ray.kinds == ray_diffuse, path.least_pdf, shading.bsdf);
     if (path.is_camera_ray && scene_.instances[point.instance].is_shadow_catcher) {
-      if (!pass_catcher(path, ray, hit, point, shading.bsdf, sample)) continue;
+      pass_catcher(path, ray, hit, point, shading.bsdf, sample);
       rays_[kept] = ray;
       paths_[kept++] = path;
       continue;
@@ -201,8 +201,8 @@ BsdfValue PathIntegrator::eval_towards(const LightSample& light, const SurfacePo
 }
 
 // Two paths leave a shadow catcher, with the same random numbers: one among all objects, one among catchers alone. The
-// path itself goes on behind it. False where that may not.
-bool PathIntegrator::pass_catcher(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf,
+// path itself goes on behind it.
+void PathIntegrator::pass_catcher(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf,
                                   PixelSample& sample) {
   for (const Destination destination : {Destination::catcher_lit, Destination::catcher_unlit}) {
     Path caught = path;
@@ -215,18 +215,19 @@ bool PathIntegrator::pass_catcher(Path& path, Ray& ray, const Hit& hit, const Su
     caught_rays_.push_back(caught_ray);
   }
   path.destination = Destination::behind_catcher;
-  if (!count_bounce(path, ScatterKind::transparent)) return false;
+  count_bounce(path, ScatterKind::transparent);
   continue_behind(ray, hit, point);
-  return true;
 }
 
 // Sends the path on in a sampled direction. False where it ends.
 bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const {
   const float choice = path.sampler.next_1d();
   const std::optional<BsdfSample> scattered = bsdf.sample(-ray.direction, choice, path.sampler.next_2d());
-  if (!scattered || (path.is_last && scattered->kind != ScatterKind::transparent)) return false;
+  const bool is_passed = scattered && scattered->kind == ScatterKind::transparent && !path.ends_at_panes;
+  if (!scattered || (path.is_last && !is_passed)) return false;
   path.throughput *= scattered->weight;
-  if (is_black(path.throughput) || !count_bounce(path, scattered->kind)) return false;
+  if (is_black(path.throughput)) return false;
+  count_bounce(path, scattered->kind);
 
   if (scattered->kind == ScatterKind::transparent) {
     continue_behind(ray, hit, point);
@@ -246,11 +247,14 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
 }
 
 // Blender counts one scattering more than its limits say, and after the last one still gathers what the next surface
-// emits. False where the path ends at once.
-bool PathIntegrator::count_bounce(Path& path, ScatterKind kind) const {
+// emits. Behind the last transparent surface that is all, too.
+void PathIntegrator::count_bounce(Path& path, ScatterKind kind) const {
   const RenderSettings& settings = scene_.settings;
   Bounces& bounces = path.bounces;
-  if (kind == ScatterKind::transparent) return ++bounces.transparent <= settings.transparent_bounces;
+  if (kind == ScatterKind::transparent) {
+    if (++bounces.transparent >= settings.transparent_bounces) path.is_last = path.ends_at_panes = true;
+    return;
+  }
   const bool is_over = [&] {
     switch (kind) {
       case ScatterKind::diffuse:
@@ -262,7 +266,6 @@ bool PathIntegrator::count_bounce(Path& path, ScatterKind kind) const {
     }
   }();
   path.is_last = ++bounces.total > settings.max_bounces || is_over;
-  return true;
 }
 
 // Unbiased: what survives with probability p counts 1/p.

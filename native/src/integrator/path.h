@@ -29,10 +29,11 @@ class PathIntegrator final : public Integrator {
     Sampler sampler;
     Color throughput{1.0f};
     Bounces bounces = {};
-    Vec3f lit_side = {};      // of the last scattering, as light was chosen for it: see LitPoint
-    float bsdf_pdf = 0;       // of the last scattering's direction, over solid angle
-    bool is_specular = true;  // no light sample could have found this ray (a camera ray, or after a delta lobe)
-    bool is_last = false;     // only what the next surface emits still counts
+    Vec3f lit_side = {};         // of the last scattering, as light was chosen for it: see LitPoint
+    float bsdf_pdf = 0;          // of the last scattering's direction, over solid angle
+    bool is_specular = true;     // no light sample could have found this ray (a camera ray, or after a delta lobe)
+    bool is_last = false;        // only what the next surface emits still counts, also behind transparent ones
+    bool ends_at_panes = false;  // at transparent surfaces, too, if it is the last
     bool is_camera_ray = true;
     Destination destination = Destination::picture;
     bool shows_film = true;      // holes that it meets are holes in the picture
@@ -67,10 +68,10 @@ class PathIntegrator final : public Integrator {
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
   [[nodiscard]] BsdfValue eval_towards(const LightSample& light, const SurfacePoint& point, Vec3f wo,
                                        const Bsdf& bsdf) const;
-  [[nodiscard]] bool pass_catcher(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf,
-                                  PixelSample& sample);
+  void pass_catcher(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf,
+                    PixelSample& sample);
   [[nodiscard]] bool scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const;
-  [[nodiscard]] bool count_bounce(Path& path, ScatterKind kind) const;
+  void count_bounce(Path& path, ScatterKind kind) const;
   [[nodiscard]] bool survives_roulette(Path& path) const;
   [[nodiscard]] bool survives_light_roulette(Path& path, Color& radiance) const;
   void connect_through_transparency(std::span<PixelSample> samples);

@@ -16,6 +16,7 @@
 #include "bvh/test_scenes.h"
 #include "bvh/tree_access.h"
 #include "geometry/surface_point.h"
+#include "support/effort.h"
 
 namespace basicrt {
 namespace {
@@ -99,7 +100,7 @@ std::vector<Ray> rays_along_axes(test::Random& rng, Vec3f center, std::uint32_t 
 // How many rays each kernel is given below: BASICRT_LEAK_RAYS, or as many as take about a second.
 int leak_ray_count() {
   const char* count = std::getenv("BASICRT_LEAK_RAYS");
-  return count == nullptr ? 500000 : std::atoi(count);
+  return count == nullptr ? test::repetitions(500000) : std::atoi(count);
 }
 
 class EveryKernel : public testing::TestWithParam<const char*> {

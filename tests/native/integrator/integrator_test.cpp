@@ -209,6 +209,26 @@ TEST(Path, eight_transparent_sheets_pass_and_nine_are_black) {
   }
 }
 
+TEST(Path, behind_the_last_sheet_only_emission_is_seen) {
+  Scene scene = scene_from_above(16);
+  Material lit;
+  const NodeIndex grey = lit.add(DiffuseShader{}), glow = lit.add(EmissionShader{.radiance = Color(2.0f)});
+  lit.surface = lit.add(AddShader{grey, glow});
+  add_instance(scene, square(5, 0), scene.materials.append(lit));
+  scene.lights.append(SunLight{.direction = normalize(Vec3f{1, 0, -1}), .irradiance = Color(1.0f)});
+  scene.settings.max_bounces = 0;
+  const Color open = render_mean(scene).radiance;
+  EXPECT_GT(open.x, 2.05f);
+  // The sheet is before the camera, but not before the sun.
+  add_instance(scene, square(0.5f, 1), add_material(scene, TransparentShader{.color = Color(0.5f)}));
+  scene.settings.transparent_bounces = 2;
+  expect_radiance(scene, open * Color(0.5f), 0.01f);
+  scene.settings.transparent_bounces = 1;
+  expect_radiance(scene, Color(1.0f), 1e-4f);
+  scene.settings.transparent_bounces = 0;
+  expect_radiance(scene, Color(1.0f), 1e-4f);
+}
+
 TEST(Path, shadows_of_transparent_sheets_are_tinted) {
   Scene scene = scene_from_above(16);
   add_instance(scene, square(5, 0), add_material(scene, DiffuseShader{}));
