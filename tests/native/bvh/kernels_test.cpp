@@ -16,7 +16,6 @@
 #include "bvh/test_scenes.h"
 #include "bvh/tree_access.h"
 #include "geometry/surface_point.h"
-#include "support/effort.h"
 
 namespace basicrt {
 namespace {
@@ -97,10 +96,16 @@ std::vector<Ray> rays_along_axes(test::Random& rng, Vec3f center, std::uint32_t 
   return rays;
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int seconds_worth_of_rays = 50000;
+#else
+constexpr int seconds_worth_of_rays = 500000;
+#endif
+
 // How many rays each kernel is given below: BASICRT_LEAK_RAYS, or as many as take about a second.
 int leak_ray_count() {
   const char* count = std::getenv("BASICRT_LEAK_RAYS");
-  return count == nullptr ? test::repetitions(500000) : std::atoi(count);
+  return count == nullptr ? seconds_worth_of_rays : std::atoi(count);
 }
 
 class EveryKernel : public testing::TestWithParam<const char*> {

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "math/vec.h"
-#include "support/effort.h"
 
 namespace basicrt::test {
 
@@ -28,7 +27,6 @@ inline Vec2f next_unit_vec2(Rng& rng) {
   return {x, next_unit_float(rng)};
 }
 
-// Samples are a tenth of these under a sanitizer.
 struct ChiSquareOptions {
   int samples = 200000;
   int pilot_samples = 20000;  // shape the cells, and are not counted
@@ -184,21 +182,20 @@ inline ChiSquareResult chi_square_square(const std::function<std::optional<Vec2d
                                          const ChiSquareOptions& options = {}) {
   Rng rng(options.seed);
   std::vector<Vec2d> pilot;
-  for (int i = 0; i < repetitions(options.pilot_samples); ++i)
+  for (int i = 0; i < options.pilot_samples; ++i)
     if (const auto p = sample(rng)) pilot.push_back(*p);
   const AdaptiveCells cells(std::move(pilot));
 
   std::vector<double> observed(cells.cells().size());
   double observed_nothing = 0;
-  const int samples = repetitions(options.samples);
-  for (int i = 0; i < samples; ++i) {
+  for (int i = 0; i < options.samples; ++i) {
     const auto p = sample(rng);
     ++(p ? observed[cells.find(*p)] : observed_nothing);
   }
 
   ChiSquareResult result;
   result.seed = options.seed;
-  const double count = samples;
+  const double count = options.samples;
   double pooled_observed = 0, pooled_expected = 0;
   int bins = 0;
   const auto add_bin = [&](double seen, double expected) {
@@ -208,7 +205,7 @@ inline ChiSquareResult chi_square_square(const std::function<std::optional<Vec2d
   for (std::size_t i = 0; i < cells.cells().size(); ++i) {
     const auto& cell = cells.cells()[i];
     if (cell.split_axis >= 0) continue;
-    const double mass = integrate(density, cell.lower, cell.upper, 1e-7 * effort_divisor);
+    const double mass = integrate(density, cell.lower, cell.upper, 1e-7);
     result.mass += mass;
     if (mass * count >= 5) {
       add_bin(observed[i], mass * count);
