@@ -17,9 +17,11 @@ from .coordinates import Coordinates, coordinates_at
 from .graph import Place, find_socket, trace
 from .images import MISSING, Textures
 from .node_view import Color, NodeView, Translation, as_color, positive, scaled
+from .sky import convert_sky
 from .textures import INTERPOLATIONS
 from .translate import is_linked, output_place
 
+_TEXTURES = ("ShaderNodeTexEnvironment", "ShaderNodeTexSky")
 _PROJECTIONS = {"EQUIRECTANGULAR": "equirectangular", "MIRROR_BALL": "mirror_ball"}
 # Outputs of Texture Coordinate that are the direction in a world.
 _DIRECTIONS = ("default", "Generated", "Object", "constant")
@@ -60,7 +62,7 @@ def translate_world(
 
 def _is_plain(layer: basicrt.EnvironmentLayer) -> bool:
     """One colour for all rays from everywhere."""
-    return layer.image is None and layer.seen_by == "all"
+    return layer.image is None and layer.sky is None and layer.seen_by == "all"
 
 
 def _shader_layers(
@@ -127,15 +129,15 @@ def _color_layer(
         return _plain_layer(positive(as_color(_own_value(source.socket))), factor, seen_by)
     node: Any = source.socket.node
     origin = NodeView(node, source.groups, view.translation)
-    if origin.bl_idname == "ShaderNodeTexEnvironment":
-        return _image_layer(origin, factor, seen_by)
+    if origin.bl_idname in _TEXTURES:
+        return _textured_layer(origin, factor, seen_by)
     color = origin.constant_output()
     if color is not None:
         return _plain_layer(positive(as_color(color)), factor, seen_by)
     before = _environment_before(origin)
     if before is not None:
         view.translation.warn(f"{origin.title} is not supported in a world and left out")
-        return _image_layer(before, factor, seen_by)
+        return _textured_layer(before, factor, seen_by)
     view.translation.warn(
         f"{origin.title} is not supported in a world: the socket's own colour is used"
     )
@@ -153,18 +155,45 @@ def _plain_layer(color: Color, factor: float, seen_by: str) -> basicrt.Environme
 
 
 def _environment_before(view: NodeView) -> NodeView | None:
-    """The first environment texture that feeds a node, however indirectly."""
+    """The first environment or sky texture that feeds a node, however indirectly."""
     for socket in view.node.inputs:
         source = trace(Place(socket, view.groups))
         if not source.socket.is_output or source.socket.node is None:
             continue
         before = NodeView(source.socket.node, source.groups, view.translation)
-        if before.bl_idname == "ShaderNodeTexEnvironment":
+        if before.bl_idname in _TEXTURES:
             return before
         deeper = _environment_before(before)
         if deeper is not None:
             return deeper
     return None
+
+
+def _textured_layer(view: NodeView, factor: float, seen_by: str) -> basicrt.EnvironmentLayer:
+    if view.bl_idname == "ShaderNodeTexSky":
+        return _sky_layer(view, factor, seen_by)
+    return _image_layer(view, factor, seen_by)
+
+
+def _sky_layer(view: NodeView, factor: float, seen_by: str) -> basicrt.EnvironmentLayer:
+    """A Sky Texture."""
+    node: Any = view.node
+    has_vector = node.sky_type in ("PREETHAM", "HOSEK_WILKIE")
+    return basicrt.EnvironmentLayer(
+        radiance=(factor, factor, factor),
+        sky=convert_sky(node, view.warn),
+        # Blender has no Vector for the skies in which the sun has a disc.
+        transform=_direction_matrix(view) if has_vector else np.eye(4),
+        seen_by=seen_by,
+    )
+
+
+def _direction_matrix(view: NodeView) -> Any:
+    """What a texture's Vector input does to directions."""
+    coordinates = coordinates_at(view) or Coordinates("default", np.eye(4))
+    if coordinates.source not in _DIRECTIONS:
+        view.warn(f"{coordinates.source} coordinates are not supported: the direction is used")
+    return coordinates.matrix
 
 
 def _image_layer(view: NodeView, factor: float, seen_by: str) -> basicrt.EnvironmentLayer:
@@ -173,14 +202,11 @@ def _image_layer(view: NodeView, factor: float, seen_by: str) -> basicrt.Environ
     converted = view.translation.textures.image(node.image, view.warn)
     if converted is None:
         return _plain_layer(MISSING, factor, seen_by)
-    coordinates = coordinates_at(view) or Coordinates("default", np.eye(4))
-    if coordinates.source not in _DIRECTIONS:
-        view.warn(f"{coordinates.source} coordinates are not supported: the direction is used")
     return basicrt.EnvironmentLayer(
         radiance=(factor, factor, factor),
         image=converted.image,
         projection=_PROJECTIONS[node.projection],
         interpolation=INTERPOLATIONS[node.interpolation],
-        transform=coordinates.matrix,
+        transform=_direction_matrix(view),
         seen_by=seen_by,
     )

@@ -161,6 +161,7 @@ def test_values_out_of_range_are_refused_by_name(make, message: str) -> None:
         (lambda: basicrt.Instance(0, name=3), "Instance.name: must be a string"),
         (lambda: basicrt.MixShader("half"), "MixShader.factor: must be a number or a TextureRef"),
         (lambda: basicrt.EnvironmentLayer(image=3), "EnvironmentLayer.image: must be an Image"),
+        (lambda: basicrt.EnvironmentLayer(sky=3), "EnvironmentLayer.sky: must be a sky"),
         (lambda: basicrt.Environment(layers=3), "Environment.layers: must be a list"),
         (lambda: basicrt.Environment(layers=[3]), r"layers\[0\]: must be an EnvironmentLayer"),
     ],

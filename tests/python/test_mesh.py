@@ -3,6 +3,8 @@
 
 import gc
 import weakref
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -233,6 +235,32 @@ def test_textures_share_an_image() -> None:
 def test_a_texture_takes_pixels_for_an_image() -> None:
     pixels = np.random.default_rng(3).random((4, 5, 3)).astype(np.float32)
     assert np.array_equal(basicrt.ImageTexture(pixels).image.pixels, pixels)
+
+
+@pytest.mark.parametrize(
+    "sky",
+    [
+        basicrt.PreethamSky(sun_elevation=0.5, turbidity=4),
+        basicrt.SingleScatteringSky(altitude=500, sun_disc=False),
+        basicrt.MultipleScatteringSky(sun_rotation=1, aerosol_density=3),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:objects. the scene has none")
+def test_a_sky_is_saved_and_read_back(sky: Any, tmp_path: Path) -> None:
+    scene = basicrt.Scene()
+    scene.environment.layers = [basicrt.EnvironmentLayer(sky=sky)]
+    scene.save(tmp_path / "scene.json")
+    (layer,) = basicrt.load_scene(tmp_path / "scene.json").environment.layers
+    assert repr(layer.sky) == repr(sky)
+
+
+def test_a_layer_has_an_image_or_a_sky_but_not_both() -> None:
+    scene = basicrt.Scene()
+    image = basicrt.Image(np.zeros((2, 4, 3), np.float32))
+    layer = basicrt.EnvironmentLayer(image=image, sky=basicrt.PreethamSky())
+    scene.environment.layers = [layer]
+    with pytest.raises(basicrt.SceneError, match=r"environment.layers\[0\].sky: there is an image"):
+        basicrt.render(scene)
 
 
 def test_environment_layers_hold_images() -> None:

@@ -39,10 +39,12 @@ __all__: list[str] = [
     "MaterialTable",
     "Mesh",
     "MixShader",
+    "MultipleScatteringSky",
     "OrthographicCamera",
     "PassInfo",
     "PerspectiveCamera",
     "PointLight",
+    "PreethamSky",
     "PrincipledShader",
     "Progress",
     "RefractionShader",
@@ -52,6 +54,7 @@ __all__: list[str] = [
     "SceneWarning",
     "Session",
     "ShapeTable",
+    "SingleScatteringSky",
     "Sphere",
     "SpotLight",
     "SunLight",
@@ -1349,21 +1352,239 @@ class AreaLight:
     @volume_visible.setter
     def volume_visible(self, value: bool) -> None: ...
 
+class PreethamSky:
+    """
+    A fit to daylight; it has no sun disc.
+
+    sun_elevation: above the horizon, radians
+    sun_rotation: from y towards x, radians
+    turbidity: haze: 2 is clear, 10 hazy; in [1, 10]
+    """
+    def __init__(
+        self, sun_elevation: float = 0.261799, sun_rotation: float = 0.0, turbidity: float = 2.2
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def sun_elevation(self) -> float:
+        """
+        above the horizon, radians
+        """
+    @sun_elevation.setter
+    def sun_elevation(self, value: float) -> None: ...
+    @property
+    def sun_rotation(self) -> float:
+        """
+        from y towards x, radians
+        """
+    @sun_rotation.setter
+    def sun_rotation(self, value: float) -> None: ...
+    @property
+    def turbidity(self) -> float:
+        """
+        haze: 2 is clear, 10 hazy; in [1, 10]
+        """
+    @turbidity.setter
+    def turbidity(self, value: float) -> None: ...
+
+class SingleScatteringSky:
+    """
+    Light that is scattered once on its way.
+
+    sun_elevation: above the horizon, radians
+    sun_rotation: from y towards x, radians
+    sun_disc: the sun itself is seen and sends light
+    sun_size: full angle of the disc, radians; in [0, 1.570797]
+    sun_intensity: of the disc; at least 0
+    altitude: of the eye above the sea, metres; at least 0
+    air_density: molecules; at least 0
+    aerosol_density: dust and droplets; at least 0
+    ozone_density: ozone high above; at least 0
+    """
+    def __init__(
+        self,
+        sun_elevation: float = 0.261799,
+        sun_rotation: float = 0.0,
+        sun_disc: bool = True,
+        sun_size: float = 0.009512,
+        sun_intensity: float = 1.0,
+        altitude: float = 100.0,
+        air_density: float = 1.0,
+        aerosol_density: float = 1.0,
+        ozone_density: float = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def aerosol_density(self) -> float:
+        """
+        dust and droplets; at least 0
+        """
+    @aerosol_density.setter
+    def aerosol_density(self, value: float) -> None: ...
+    @property
+    def air_density(self) -> float:
+        """
+        molecules; at least 0
+        """
+    @air_density.setter
+    def air_density(self, value: float) -> None: ...
+    @property
+    def altitude(self) -> float:
+        """
+        of the eye above the sea, metres; at least 0
+        """
+    @altitude.setter
+    def altitude(self, value: float) -> None: ...
+    @property
+    def ozone_density(self) -> float:
+        """
+        ozone high above; at least 0
+        """
+    @ozone_density.setter
+    def ozone_density(self, value: float) -> None: ...
+    @property
+    def sun_disc(self) -> bool:
+        """
+        the sun itself is seen and sends light
+        """
+    @sun_disc.setter
+    def sun_disc(self, value: bool) -> None: ...
+    @property
+    def sun_elevation(self) -> float:
+        """
+        above the horizon, radians
+        """
+    @sun_elevation.setter
+    def sun_elevation(self, value: float) -> None: ...
+    @property
+    def sun_intensity(self) -> float:
+        """
+        of the disc; at least 0
+        """
+    @sun_intensity.setter
+    def sun_intensity(self, value: float) -> None: ...
+    @property
+    def sun_rotation(self) -> float:
+        """
+        from y towards x, radians
+        """
+    @sun_rotation.setter
+    def sun_rotation(self, value: float) -> None: ...
+    @property
+    def sun_size(self) -> float:
+        """
+        full angle of the disc, radians; in [0, 1.570797]
+        """
+    @sun_size.setter
+    def sun_size(self, value: float) -> None: ...
+
+class MultipleScatteringSky:
+    """
+    Light that is scattered any number of times, and reflected by the ground.
+
+    sun_elevation: above the horizon, radians
+    sun_rotation: from y towards x, radians
+    sun_disc: the sun itself is seen and sends light
+    sun_size: full angle of the disc, radians; in [0, 1.570797]
+    sun_intensity: of the disc; at least 0
+    altitude: of the eye above the sea, metres; at least 0
+    air_density: molecules; at least 0
+    aerosol_density: dust and droplets; at least 0
+    ozone_density: ozone high above; at least 0
+    """
+    def __init__(
+        self,
+        sun_elevation: float = 0.261799,
+        sun_rotation: float = 0.0,
+        sun_disc: bool = True,
+        sun_size: float = 0.009512,
+        sun_intensity: float = 1.0,
+        altitude: float = 100.0,
+        air_density: float = 1.0,
+        aerosol_density: float = 1.0,
+        ozone_density: float = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def aerosol_density(self) -> float:
+        """
+        dust and droplets; at least 0
+        """
+    @aerosol_density.setter
+    def aerosol_density(self, value: float) -> None: ...
+    @property
+    def air_density(self) -> float:
+        """
+        molecules; at least 0
+        """
+    @air_density.setter
+    def air_density(self, value: float) -> None: ...
+    @property
+    def altitude(self) -> float:
+        """
+        of the eye above the sea, metres; at least 0
+        """
+    @altitude.setter
+    def altitude(self, value: float) -> None: ...
+    @property
+    def ozone_density(self) -> float:
+        """
+        ozone high above; at least 0
+        """
+    @ozone_density.setter
+    def ozone_density(self, value: float) -> None: ...
+    @property
+    def sun_disc(self) -> bool:
+        """
+        the sun itself is seen and sends light
+        """
+    @sun_disc.setter
+    def sun_disc(self, value: bool) -> None: ...
+    @property
+    def sun_elevation(self) -> float:
+        """
+        above the horizon, radians
+        """
+    @sun_elevation.setter
+    def sun_elevation(self, value: float) -> None: ...
+    @property
+    def sun_intensity(self) -> float:
+        """
+        of the disc; at least 0
+        """
+    @sun_intensity.setter
+    def sun_intensity(self, value: float) -> None: ...
+    @property
+    def sun_rotation(self) -> float:
+        """
+        from y towards x, radians
+        """
+    @sun_rotation.setter
+    def sun_rotation(self, value: float) -> None: ...
+    @property
+    def sun_size(self) -> float:
+        """
+        full angle of the disc, radians; in [0, 1.570797]
+        """
+    @sun_size.setter
+    def sun_size(self, value: float) -> None: ...
+
 class EnvironmentLayer:
     """
     A picture around the scene, or the same from everywhere.
 
-    radiance: W / (m^2 sr); multiplies the image where there is one; at least 0
+    radiance: W / (m^2 sr); multiplies the image or sky where there is one; at least 0
     image: an Image; None is the same from everywhere
-    projection: of the image: equirectangular or mirror_ball
+    sky: a PreethamSky, SingleScatteringSky or MultipleScatteringSky instead of an image
+    projection: of the image: equirectangular, mirror_ball or horizon
     interpolation: between pixels: linear, closest or cubic
-    transform: of a direction, as a point, before the image is looked up
+    transform: of a direction, as a point, before the image or sky is looked up
     seen_by: which rays see it: all, those from the camera, or those that have scattered
     """
     def __init__(
         self,
         radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
         image: Image | None = None,
+        sky: PreethamSky | SingleScatteringSky | MultipleScatteringSky | None = None,
         projection: str = "equirectangular",
         interpolation: str = "linear",
         transform: numpy.typing.ArrayLike = ...,
@@ -1387,14 +1608,14 @@ class EnvironmentLayer:
     @property
     def projection(self) -> str:
         """
-        of the image: equirectangular or mirror_ball
+        of the image: equirectangular, mirror_ball or horizon
         """
     @projection.setter
     def projection(self, value: str) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
-        W / (m^2 sr); multiplies the image where there is one; at least 0
+        W / (m^2 sr); multiplies the image or sky where there is one; at least 0
         """
     @radiance.setter
     def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
@@ -1406,9 +1627,18 @@ class EnvironmentLayer:
     @seen_by.setter
     def seen_by(self, value: str) -> None: ...
     @property
+    def sky(self) -> PreethamSky | SingleScatteringSky | MultipleScatteringSky | None:
+        """
+        a PreethamSky, SingleScatteringSky or MultipleScatteringSky instead of an image
+        """
+    @sky.setter
+    def sky(
+        self, value: PreethamSky | SingleScatteringSky | MultipleScatteringSky | None
+    ) -> None: ...
+    @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
-        of a direction, as a point, before the image is looked up
+        of a direction, as a point, before the image or sky is looked up
         """
     @transform.setter
     def transform(self, value: numpy.typing.ArrayLike) -> None: ...

@@ -12,9 +12,10 @@ namespace {
 
 EnvironmentLayer read_layer(SceneReader& reader, const JsonValue& json) {
   EnvironmentLayer layer;
-  json.check_keys(known_keys<EnvironmentLayer>({"image"}));
+  json.check_keys(known_keys<EnvironmentLayer>({"image", "sky"}));
   read_fields(json, layer);
   if (const auto image = json.find("image")) layer.image = read_image(reader, *image);
+  if (const auto sky = json.find("sky")) layer.sky = read_plain_variant<Sky>(*sky);
   return layer;
 }
 

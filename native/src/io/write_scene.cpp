@@ -87,6 +87,7 @@ Json write_environment(const Environment& environment, ImageWriter& images) {
   for (const EnvironmentLayer& layer : environment.layers) {
     Json& written = json["layers"].emplace_back(write_fields(layer));
     if (!layer.image.is_empty()) written["image"] = images.add(layer.image);
+    if (layer.sky) written["sky"] = std::visit([](const auto& sky) { return write_fields(sky); }, *layer.sky);
   }
   return json;
 }

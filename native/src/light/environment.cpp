@@ -2,6 +2,7 @@
 // From directions to places in pictures.
 #include "light/environment.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/constants.h"
@@ -12,6 +13,12 @@ namespace {
 Vec2f project_equirectangular(Vec3f d) {
   const float longitude = std::atan2(d.y, d.x), latitude = std::atan2(d.z, std::sqrt(d.x * d.x + d.y * d.y));
   return {0.5f - longitude * (inv_pi / 2), latitude * inv_pi + 0.5f};
+}
+
+Vec2f project_horizon(Vec3f d) {
+  const Vec2f even = project_equirectangular(d);
+  const float height = 2 * even.y - 1;
+  return {even.x, 0.5f + std::copysign(std::sqrt(std::abs(height)) / 2, height)};
 }
 
 // The sphere's normal lies halfway between the direction and the way back to the camera, which looks along y.
@@ -27,13 +34,24 @@ Vec2f project_mirror_ball(Vec3f d) {
 }  // namespace
 
 Vec2f project_direction(EnvironmentProjection projection, Vec3f direction) {
-  return projection == EnvironmentProjection::mirror_ball ? project_mirror_ball(direction)
-                                                          : project_equirectangular(direction);
+  switch (projection) {
+    case EnvironmentProjection::mirror_ball:
+      return project_mirror_ball(direction);
+    case EnvironmentProjection::horizon:
+      return project_horizon(direction);
+    case EnvironmentProjection::equirectangular:
+      break;
+  }
+  return project_equirectangular(direction);
 }
 
 Color eval_layer(const EnvironmentLayer& layer, Vec3f direction) {
   if (layer.image.is_empty()) return layer.radiance;
-  const Vec2f uv = project_direction(layer.projection, layer.to_image.point(direction));
+  Vec2f uv = project_direction(layer.projection, layer.to_image.point(direction));
+  if (layer.projection == EnvironmentProjection::horizon) {  // one pole doesn't shine into the other
+    const float edge = 0.5f / static_cast<float>(layer.image.height);
+    uv.y = std::clamp(uv.y, edge, 1 - edge);
+  }
   const ImageLookup lookup{.interpolation = layer.interpolation, .extension = ImageExtension::repeat};
   return layer.radiance * max(eval_image(layer.image, lookup, uv).color, Color(0.0f));
 }

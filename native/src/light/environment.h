@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a ray sees that hits nothing: the same radiance from everywhere, and pictures around the scene.
+// What a ray sees that hits nothing: the same radiance from everywhere, pictures around the scene, and skies.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
 #include "base/describe.h"
 #include "image/image_lookup.h"
+#include "light/sky.h"
 #include "math/color.h"
 #include "math/transform.h"
 
@@ -17,10 +19,11 @@ namespace basicrt {
 
 // How a direction finds its place in a picture. Equirectangular: u = 1/2 - longitude / 2 pi, v = latitude / pi + 1/2,
 // so that z is up and x lies in the middle. Mirror ball: as a camera that looks along y sees it in a mirror sphere.
-enum class EnvironmentProjection : std::uint8_t { equirectangular, mirror_ball };
+// Horizon: as equirectangular, but v - 1/2 goes with the root of the latitude, so that rows are dense at the horizon.
+enum class EnvironmentProjection : std::uint8_t { equirectangular, mirror_ball, horizon };
 template <>
 inline constexpr std::array enum_names<EnvironmentProjection> =
-    std::to_array<std::string_view>({"equirectangular", "mirror_ball"});
+    std::to_array<std::string_view>({"equirectangular", "mirror_ball", "horizon"});
 
 enum class EnvironmentRays : std::uint8_t { all, camera, scattered };
 template <>
@@ -30,7 +33,8 @@ inline constexpr std::array enum_names<EnvironmentRays> =
 // All layers that a ray sees add up.
 struct EnvironmentLayer {
   Color radiance{1.0f};
-  Image image;  // none: the same from everywhere
+  Image image;                  // none: the same from everywhere
+  std::optional<Sky> sky = {};  // instead of an image
   EnvironmentProjection projection = EnvironmentProjection::equirectangular;
   ImageInterpolation interpolation = ImageInterpolation::linear;
   Transform to_image;  // of a direction of unit length, as if that were a point
@@ -38,10 +42,10 @@ struct EnvironmentLayer {
   static constexpr auto fields() {
     using L = EnvironmentLayer;
     return std::tuple{
-        field("radiance", &L::radiance, "W / (m^2 sr); multiplies the image where there is one", at_least(0)),
-        field("projection", &L::projection, "of the image: equirectangular or mirror_ball"),
+        field("radiance", &L::radiance, "W / (m^2 sr); multiplies the image or sky where there is one", at_least(0)),
+        field("projection", &L::projection, "of the image: equirectangular, mirror_ball or horizon"),
         field("interpolation", &L::interpolation, "between pixels: linear, closest or cubic"),
-        field("transform", &L::to_image, "of a direction, as a point, before the image is looked up"),
+        field("transform", &L::to_image, "of a direction, as a point, before the image or sky is looked up"),
         field("seen_by", &L::seen_by, "which rays see it: all, those from the camera, or those that have scattered")};
   }
 };
@@ -57,7 +61,8 @@ struct Environment {
 // For a direction in the layer's own space, of any length.
 [[nodiscard]] Vec2f project_direction(EnvironmentProjection projection, Vec3f direction);
 
-// What arrives from a direction of unit length, by whatever rays see the layer.
+// What arrives from a direction of unit length, by whatever rays see the layer. Skies must have been drawn: a layer is
+// its image.
 [[nodiscard]] Color eval_layer(const EnvironmentLayer& layer, Vec3f direction);
 [[nodiscard]] Color eval_environment(const Environment& environment, Vec3f direction, bool is_camera_ray);
 

@@ -76,17 +76,29 @@ EquirectTable make_drawn_table(const EnvironmentLayer& layer, int threads) {
   return make_table(width, height, row_of, share, threads);
 }
 
+Vec3f turned(const TransformD& transform, Vec3d direction) {
+  const Vec3d made = transform.vector(direction);
+  return Vec3f(made / length(made));
+}
+
 // Directions go to directions one to one, and far apart enough to be told.
 bool is_one_to_one(const TransformD& transform) {
   const double size = length(transform.column(0)) * length(transform.column(1)) * length(transform.column(2));
   return length_squared(transform.column(3)) == 0 && std::abs(transform.determinant()) > 1e-3 * size;
 }
 
+// A sky's own space has the sun over the x axis.
+Transform to_sky(const EnvironmentLayer& layer) {
+  const float azimuth = sun_azimuth(*layer.sky), c = std::cos(azimuth), s = std::sin(azimuth);
+  return Transform({{{c, s, 0, 0}, {-s, c, 0, 0}, {0, 0, 1, 0}}}) * layer.to_image;
+}
+
 }  // namespace
 
 EnvironmentSampler::EnvironmentSampler(const Environment& environment, int threads) : environment_(environment) {
+  draw_skies(threads);
   std::vector<double> powers;
-  for (const EnvironmentLayer& layer : environment.layers) {
+  for (const EnvironmentLayer& layer : environment_.layers) {
     if (layer.seen_by == EnvironmentRays::camera || layer.image.is_empty() || is_black(layer.radiance)) continue;
     Picture picture = make_picture(layer, threads);
     // A table of the layer's own space knows nothing of the layer's colour.
@@ -94,7 +106,31 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment, int threa
     powers.push_back(picture.table.total() * scale);
     pictures_.push_back(std::move(picture));
   }
+  for (const Sun& sun : suns_) powers.push_back(sampling_weight(sun));
   choices_ = DiscreteDistribution(std::move(powers));
+}
+
+void EnvironmentSampler::draw_skies(int threads) {
+  for (EnvironmentLayer& layer : environment_.layers) {
+    if (!layer.sky) continue;
+    layer.image = draw_sky(*layer.sky, threads);
+    layer.projection = EnvironmentProjection::horizon;
+    layer.interpolation = ImageInterpolation::linear;
+    layer.to_image = to_sky(layer);
+    if (const std::optional<SunDisc> sun = find_sun(*layer.sky)) add_sun(*sun, layer);
+  }
+}
+
+void EnvironmentSampler::add_sun(const SunDisc& disc, const EnvironmentLayer& layer) {
+  Sun sun{.disc = disc, .scale = layer.radiance, .seen_by = layer.seen_by, .to_sky = layer.to_image};
+  const TransformD to_sky(sun.to_sky);
+  sun.is_sampled = sun.seen_by != EnvironmentRays::camera && is_one_to_one(to_sky);
+  if (sun.is_sampled) sun.to_world = inverse(to_sky);
+  suns_.push_back(sun);
+}
+
+double EnvironmentSampler::sampling_weight(const Sun& sun) {
+  return sun.is_sampled ? luminance(sun.scale * sun_disc_irradiance(sun.disc)) : 0;
 }
 
 EnvironmentSampler::Picture EnvironmentSampler::make_picture(const EnvironmentLayer& layer, int threads) {
@@ -113,15 +149,29 @@ double EnvironmentSampler::power(float scene_radius) const {
   return choices_.total() * std::numbers::pi * double(scene_radius) * scene_radius;
 }
 
+Color EnvironmentSampler::eval(Vec3f direction, bool is_camera_ray) const {
+  Color sum = eval_environment(environment_, direction, is_camera_ray);
+  const EnvironmentRays unseen = is_camera_ray ? EnvironmentRays::scattered : EnvironmentRays::camera;
+  for (const Sun& sun : suns_)
+    if (sun.seen_by != unseen)
+      sum += sun.scale * eval_sun_disc(sun.disc, normalize(Vec3d(sun.to_sky.point(direction))));
+  return sum;
+}
+
+Vec3f EnvironmentSampler::sample_picture(const Picture& picture, Vec2f u) {
+  const Vec3f direction = picture.table.sample(u).direction;
+  return picture.is_in_world ? direction : turned(picture.to_world, Vec3d(direction));
+}
+
+Vec3f EnvironmentSampler::sample_sun(const Sun& sun, Vec2f u) {
+  return turned(sun.to_world, sample_sun_disc(sun.disc, u));
+}
+
 std::optional<LightSample> EnvironmentSampler::sample(float choice, Vec2f u) const {
-  const Picture& picture = pictures_[choices_.choose(choice).index];
-  Vec3f direction = picture.table.sample(u).direction;
-  if (!picture.is_in_world) {
-    const Vec3d turned = picture.to_world.vector(Vec3d(direction));
-    direction = Vec3f(turned / length(turned));
-  }
-  const LightSample sample{
-      .wi = direction, .radiance = eval_environment(environment_, direction, false), .pdf = pdf(direction)};
+  const std::uint32_t chosen = choices_.choose(choice).index;
+  const Vec3f direction = chosen < pictures_.size() ? sample_picture(pictures_[chosen], u)
+                                                    : sample_sun(suns_[chosen - pictures_.size()], u);
+  const LightSample sample{.wi = direction, .radiance = eval(direction, false), .pdf = pdf(direction)};
   if (!(sample.pdf > 0 && sample.pdf < infinity)) return std::nullopt;
   return sample;
 }
@@ -139,7 +189,21 @@ float EnvironmentSampler::pdf(Vec3f direction) const {
     const double ratio = 1 / solid_angle_ratio(picture.to_image, Vec3d(direction));
     sum += probability * picture.table.pdf(Vec3f(turned)) * ratio;
   }
-  return static_cast<float>(sum);
+  return static_cast<float>(sum + pdf_suns(direction));
+}
+
+double EnvironmentSampler::pdf_suns(Vec3f direction) const {
+  double sum = 0;
+  for (std::uint32_t i = 0; i < suns_.size(); ++i) {
+    const Sun& sun = suns_[i];
+    if (!sun.is_sampled) continue;
+    const TransformD to_sky(sun.to_sky);
+    const double density = pdf_sun_disc(sun.disc, normalize(to_sky.vector(Vec3d(direction))));
+    if (density == 0) continue;
+    const double probability = choices_.probability(static_cast<std::uint32_t>(pictures_.size()) + i);
+    sum += probability * density / solid_angle_ratio(to_sky, Vec3d(direction));
+  }
+  return sum;
 }
 
 }  // namespace basicrt

@@ -54,7 +54,7 @@ class LightSet {
 
   // What a ray sees that hits nothing.
   [[nodiscard]] Color environment_radiance(Vec3f direction, bool is_camera_ray) const {
-    return eval_environment(environment_.environment(), direction, is_camera_ray);
+    return environment_.eval(direction, is_camera_ray);
   }
   // Nothing to sample.
   [[nodiscard]] bool is_empty() const { return picker_.size() == 0 && environment_share_ == 0; }

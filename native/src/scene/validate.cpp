@@ -80,6 +80,9 @@ void validate_environment(const Environment& environment) {
     const std::string item = "environment." + entry("layers", i);
     validate_fields(layer, item);
     if (!layer.image.is_empty()) validate_image(layer.image, item + ".image");
+    if (!layer.sky) continue;
+    std::visit([&](const auto& sky) { validate_fields(sky, item + ".sky"); }, *layer.sky);
+    if (!layer.image.is_empty()) throw SceneError(item + ".sky", "there is an image, too");
   }
 }
 

@@ -122,6 +122,8 @@ Json expected_definitions() {
       [&]<class Kind>(const Kind&) { definitions[std::string(Kind::kind) + "_light"] = definition_of<Kind>(); });
   for_each_kind<Camera>(
       [&]<class Kind>(const Kind&) { definitions[std::string(Kind::kind) + "_camera"] = definition_of<Kind>(); });
+  for_each_kind<Sky>(
+      [&]<class Kind>(const Kind&) { definitions[std::string(Kind::kind) + "_sky"] = definition_of<Kind>(); });
   definitions["constant_texture"] = definition_of<ConstantTexture>();
   definitions["checkerboard_texture"] =
       definition_of<CheckerboardTexture>({{"tex_coordinate_generator", {{"$ref", "#/$defs/texture_generator"}}}});
@@ -129,7 +131,8 @@ Json expected_definitions() {
   image_texture["image"] = {{"$ref", "#/$defs/image_input"}};
   definitions["image_texture"] = definition_of<ImageTexture>(image_texture);
   definitions["image"] = {{"type", "object"}, {"properties", image_properties()}, {"additionalProperties", false}};
-  definitions["environment_layer"] = definition_of<EnvironmentLayer>({{"image", {{"$ref", "#/$defs/image_input"}}}});
+  definitions["environment_layer"] = definition_of<EnvironmentLayer>(
+      {{"image", {{"$ref", "#/$defs/image_input"}}}, {"sky", {{"$ref", "#/$defs/sky"}}}});
   definitions["sphere_shape"] = definition_of<Sphere>();
   definitions["filter"] = definition_of<FilterSettings>();
   definitions["environment"] =
@@ -166,6 +169,7 @@ TEST(SceneSchema, has_every_kind_and_no_other) {
   EXPECT_EQ(kinds_in(schema()["$defs"]["shader"]["oneOf"]), kinds_of<ShaderNode>("shader"));
   EXPECT_EQ(kinds_in(schema()["$defs"]["texture"]["oneOf"]), kinds_of<Texture>("texture"));
   EXPECT_EQ(kinds_in(schema()["properties"]["lights"]["items"]["oneOf"]), kinds_of<Light>("light"));
+  EXPECT_EQ(kinds_in(schema()["$defs"]["sky"]["oneOf"]), kinds_of<Sky>("sky"));
   std::set<std::string> cameras = kinds_of<Camera>("camera");
   cameras.insert("look_at_camera");
   EXPECT_EQ(kinds_in(schema()["properties"]["camera"]["oneOf"]), cameras);
