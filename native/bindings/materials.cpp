@@ -7,6 +7,19 @@
 namespace basicrt::bindings {
 namespace py = pybind11;
 
+namespace {
+
+auto root_getter(NodeIndex Material::* root) {
+  return [root](const Material& self) -> std::optional<NodeIndex> {
+    return self.*root == no_node ? std::nullopt : std::optional(self.*root);
+  };
+}
+auto root_setter(NodeIndex Material::* root) {
+  return [root](Material& self, std::optional<NodeIndex> node) { self.*root = node.value_or(no_node); };
+}
+
+}  // namespace
+
 void register_materials(py::module_& m) {
   bind_described<DiffuseShader>(m, "DiffuseShader", "Lambert's reflection.");
   bind_described<GlossyShader>(m, "GlossyShader", "GGX reflection tinted by a colour; a mirror at roughness 0.");
@@ -17,6 +30,7 @@ void register_materials(py::module_& m) {
   bind_described<EmissionShader>(m, "EmissionShader", "A surface that shines.");
   bind_described<HoldoutShader>(m, "HoldoutShader", "A hole in the picture for what the camera sees.");
   bind_described<PrincipledShader>(m, "PrincipledShader", "Blender's Principled BSDF with constant values.");
+  bind_described<VolumeShader>(m, "VolumeShader", "What fills a shape, by its coefficients.");
   bind_described<MixShader>(m, "MixShader", "A blend of two nodes; None is black and opaque.");
   bind_described<AddShader>(m, "AddShader", "The sum of two nodes; None is black and opaque.");
 
@@ -25,13 +39,12 @@ void register_materials(py::module_& m) {
            py::arg("name") = "")
       .def_readwrite("name", &Material::name)
       .def("add", &Material::add, py::arg("node"), "Appends a node and returns its index.")
-      .def_property(
-          "surface",
-          [](const Material& self) -> std::optional<NodeIndex> {
-            return self.surface == no_node ? std::nullopt : std::optional(self.surface);
-          },
-          [](Material& self, std::optional<NodeIndex> node) { self.surface = node.value_or(no_node); },
-          "The index of the node that the surface shows; None is black and opaque.")
+      .def_property("surface", root_getter(&Material::surface), root_setter(&Material::surface),
+                    "The index of the node that the surface shows; None is black and opaque, or, with a volume, "
+                    "nothing but the volume's boundary.")
+      .def_property("volume", root_getter(&Material::volume), root_setter(&Material::volume),
+                    "The index of the node that fills the shape: a VolumeShader, an EmissionShader, or such mixed and "
+                    "added. None is empty space.")
       .def_property_readonly(
           "nodes", [](const Material& self) { return self.nodes; }, "Copies of the nodes.")
       .def("__repr__", [](const Material& self) {

@@ -99,6 +99,16 @@ void register_scene(py::module_& m) {
       .def_property_readonly("instances", table_getter(&Scene::instances))
       .def_property_readonly("lights", table_getter(&Scene::lights), "lamps; they don't block rays")
       .def_readwrite("environment", &BoundScene::environment)
+      .def_property(
+          "world_volume",
+          [](const BoundScene& self) -> std::optional<std::uint32_t> {
+            const Id<Material> id = self.scene().world_volume;
+            return id.is_valid() ? std::optional(id.index) : std::nullopt;
+          },
+          [](BoundScene& self, std::optional<std::uint32_t> index) {
+            self.edit().world_volume = index ? Id<Material>{*index} : Id<Material>{};
+          },
+          "The index of the material whose volume fills all space; None is empty space.")
       .def_readwrite("settings", &BoundScene::settings)
       .def_property(
           "camera", [](const BoundScene& self) { return self.scene().camera; },

@@ -91,6 +91,19 @@ def test_materials_are_graphs_of_nodes() -> None:
     assert (mixed.first, mixed.second) == (0, None)
     material.surface = None
     assert material.surface is None
+    material.volume = material.add(basicrt.VolumeShader(scattering=(1, 2, 3), phase="rayleigh"))
+    assert material.volume == 2
+
+
+def test_the_world_is_filled_by_a_material() -> None:
+    scene = still_life()
+    assert scene.world_volume is None
+    scene.world_volume = 7
+    with pytest.raises(basicrt.SceneError, match="world_volume: id 7, but the scene has"):
+        scene.validate()
+    scene.world_volume = 0
+    scene.validate()
+    scene.world_volume = None
 
 
 def broken(change) -> basicrt.Scene:
@@ -205,13 +218,15 @@ def everything() -> basicrt.Scene:
             basicrt.TransparentShader((0.9, 0.8, 0.7)),
             basicrt.EmissionShader((0.1, 0.1, 0.1)),
             basicrt.PrincipledShader(metallic=0.5),
+            basicrt.VolumeShader(absorption=(0.01, 0.02, 0.03), phase="mie", diameter=7),
         )
     ]
     mixed = nodes[0]
     for node in nodes[1:4]:
         mixed = material.add(basicrt.MixShader(1 / 3, mixed, node))
     material.surface = material.add(basicrt.AddShader(mixed, nodes[5]))
-    index = scene.materials.append(material)
+    material.volume = nodes[7]
+    index = scene.world_volume = scene.materials.append(material)
     turn = np.eye(4)
     turn[:2, :2] = [[math.cos(0.3), -math.sin(0.3)], [math.sin(0.3), math.cos(0.3)]]
     turn[:3, 3] = (0.1, 0.2, 0.3)

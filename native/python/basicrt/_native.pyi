@@ -63,6 +63,7 @@ __all__: list[str] = [
     "Tile",
     "TileIterator",
     "TransparentShader",
+    "VolumeShader",
     "load_scene",
     "look_at_camera",
     "native_version",
@@ -789,6 +790,101 @@ class PrincipledShader:
     @transmission.setter
     def transmission(self, value: float) -> None: ...
 
+class VolumeShader:
+    """
+    What fills a shape, by its coefficients.
+
+    absorption: share of the light that each metre takes away, 1 / m; at least 0
+    scattering: share of the light that each metre scatters, 1 / m; at least 0
+    emission: radiance that each metre adds, W / (m^3 sr); at least 0
+    phase: how scattered light turns: henyey_greenstein, rayleigh, draine, fournier_forand or mie
+    anisotropy: henyey_greenstein, draine: above 0 forwards, below 0 backwards; in [-1, 1]
+    alpha: draine: 0 is henyey_greenstein, 1 with anisotropy 0 is rayleigh; at least 0
+    ior: fournier_forand: refractive index of the particles; above 1
+    backscatter: fournier_forand: share of the light that is scattered backwards; in [0, 0.5]
+    diameter: mie: of the droplets, micrometres; in [0, 50]
+    """
+    def __init__(
+        self,
+        absorption: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        scattering: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        phase: str = "henyey_greenstein",
+        anisotropy: float = 0.0,
+        alpha: float = 0.5,
+        ior: float = 1.33,
+        backscatter: float = 0.1,
+        diameter: float = 20.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def absorption(self) -> tuple[float, float, float]:
+        """
+        share of the light that each metre takes away, 1 / m; at least 0
+        """
+    @absorption.setter
+    def absorption(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+    @property
+    def alpha(self) -> float:
+        """
+        draine: 0 is henyey_greenstein, 1 with anisotropy 0 is rayleigh; at least 0
+        """
+    @alpha.setter
+    def alpha(self, value: float) -> None: ...
+    @property
+    def anisotropy(self) -> float:
+        """
+        henyey_greenstein, draine: above 0 forwards, below 0 backwards; in [-1, 1]
+        """
+    @anisotropy.setter
+    def anisotropy(self, value: float) -> None: ...
+    @property
+    def backscatter(self) -> float:
+        """
+        fournier_forand: share of the light that is scattered backwards; in [0, 0.5]
+        """
+    @backscatter.setter
+    def backscatter(self, value: float) -> None: ...
+    @property
+    def diameter(self) -> float:
+        """
+        mie: of the droplets, micrometres; in [0, 50]
+        """
+    @diameter.setter
+    def diameter(self, value: float) -> None: ...
+    @property
+    def emission(self) -> tuple[float, float, float]:
+        """
+        radiance that each metre adds, W / (m^3 sr); at least 0
+        """
+    @emission.setter
+    def emission(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    @property
+    def ior(self) -> float:
+        """
+        fournier_forand: refractive index of the particles; above 1
+        """
+    @ior.setter
+    def ior(self, value: float) -> None: ...
+    @property
+    def phase(self) -> str:
+        """
+        how scattered light turns: henyey_greenstein, rayleigh, draine, fournier_forand or mie
+        """
+    @phase.setter
+    def phase(self, value: str) -> None: ...
+    @property
+    def scattering(self) -> tuple[float, float, float]:
+        """
+        share of the light that each metre scatters, 1 / m; at least 0
+        """
+    @scattering.setter
+    def scattering(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class MixShader:
     """
     A blend of two nodes; None is black and opaque.
@@ -866,6 +962,7 @@ class Material:
         | EmissionShader
         | HoldoutShader
         | PrincipledShader
+        | VolumeShader
         | MixShader
         | AddShader,
     ) -> int:
@@ -885,6 +982,7 @@ class Material:
         | EmissionShader
         | HoldoutShader
         | PrincipledShader
+        | VolumeShader
         | MixShader
         | AddShader
     ]:
@@ -894,10 +992,17 @@ class Material:
     @property
     def surface(self) -> int | None:
         """
-        The index of the node that the surface shows; None is black and opaque.
+        The index of the node that the surface shows; None is black and opaque, or, with a volume, nothing but the volume's boundary.
         """
     @surface.setter
     def surface(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
+    @property
+    def volume(self) -> int | None:
+        """
+        The index of the node that fills the shape: a VolumeShader, an EmissionShader, or such mixed and added. None is empty space.
+        """
+    @volume.setter
+    def volume(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
 
 class PointLight:
     """
@@ -2737,6 +2842,7 @@ class RenderSettings:
     diffuse_bounces: diffuse reflections after which a path ends; in [0, 1024]
     glossy_bounces: glossy reflections after which a path ends; in [0, 1024]
     transmission_bounces: transmissions after which a path ends; in [0, 1024]
+    volume_bounces: scatterings in volumes after which a path ends; in [0, 1024]
     transparent_bounces: transparent surfaces after which a ray ends; in [0, 1024]
     rr_threshold: throughput under which Russian roulette begins; in [0, 1]
     light_threshold: light samples that would add less than this are left out by chance, which changes no mean; in [0, 1]
@@ -2778,6 +2884,7 @@ class RenderSettings:
         diffuse_bounces: int = 4,
         glossy_bounces: int = 4,
         transmission_bounces: int = 12,
+        volume_bounces: int = 0,
         transparent_bounces: int = 8,
         rr_threshold: float = 0.5,
         light_threshold: float = 0.0,
@@ -3068,6 +3175,13 @@ class RenderSettings:
     @transparent_bounces.setter
     def transparent_bounces(self, value: int) -> None: ...
     @property
+    def volume_bounces(self) -> int:
+        """
+        scatterings in volumes after which a path ends; in [0, 1024]
+        """
+    @volume_bounces.setter
+    def volume_bounces(self, value: int) -> None: ...
+    @property
     def width(self) -> int:
         """
         pixels; in [1, 65536]
@@ -3322,6 +3436,13 @@ class Scene:
         """
     @property
     def textures(self) -> TextureTable: ...
+    @property
+    def world_volume(self) -> int | None:
+        """
+        The index of the material whose volume fills all space; None is empty space.
+        """
+    @world_volume.setter
+    def world_volume(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
 
 class Tile:
     """

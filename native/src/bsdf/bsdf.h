@@ -29,6 +29,8 @@ namespace basicrt {
       return ray_glossy;
     case ScatterKind::transmission:
       return ray_transmission;
+    case ScatterKind::volume:
+      return ray_volume;
     case ScatterKind::transparent:
       break;
   }
@@ -227,7 +229,7 @@ enum class SurfaceSide : std::uint8_t { front, back };
 [[nodiscard]] Color emitted_radiance(const Material& material, SurfaceSide side);
 [[nodiscard]] bool is_emissive(const Material& material);
 
-// The most lobes that the material can make anywhere, and at least one for each way through its graph: what
+// The most lobes that the material can make anywhere, and at least one for each way through its graphs: what
 // validate() holds against Bsdf::max_lobes.
 [[nodiscard]] int lobe_count(const Material& material);
 

@@ -104,6 +104,8 @@ void flatten(const EmissionShader& node, const Target& target, float weight) {
     target.shading.emission += target.eval(node.radiance) * (node.strength * weight);
 }
 
+void flatten(const VolumeShader&, const Target&, float) {}  // nothing on a surface
+
 void flatten(const HoldoutShader&, const Target& target, float weight) { target.shading.holdout += weight; }
 
 void add_metal(const PrincipledShader& node, const Target& target, Color base, float weight) {

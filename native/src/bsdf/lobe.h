@@ -23,7 +23,7 @@
 namespace basicrt {
 
 // How a path was scattered: bounce limits and ray visibility go by it.
-enum class ScatterKind : std::uint8_t { diffuse, glossy, transmission, transparent };
+enum class ScatterKind : std::uint8_t { diffuse, glossy, transmission, transparent, volume };
 
 struct LobeValue {
   Color value{0.0f};  // f * |cos|

@@ -94,7 +94,7 @@ int lobe_count(const Material& material) {
                          [&](const AddShader& node) { return count_of(node.first) + count_of(node.second); },
                          [](const PrincipledShader& node) { return count_lobes(node); }, [](const auto&) { return 1; }};
   for (const ShaderNode& node : material.nodes) counts.push_back(std::min(std::visit(count, node), many));
-  return count_of(material.surface);
+  return std::max(count_of(material.surface), count_of(material.volume));
 }
 
 }  // namespace basicrt

@@ -20,7 +20,10 @@ std::optional<SurfaceShading> uniform_shading(const Material& material, const Ta
 PreparedMaterial::PreparedMaterial(Material the_material, const Table<Texture>& textures)
     : material(std::move(the_material)),
       front(uniform_shading(material, textures, {0, 0, 1})),
-      back(uniform_shading(material, textures, {0, 0, -1})) {}
+      back(uniform_shading(material, textures, {0, 0, -1})),
+      is_boundary(material.volume != no_node && material.surface == no_node) {
+  if (material.volume != no_node) medium = make_medium(material);
+}
 
 SurfaceShading shade(const PreparedMaterial& prepared, const Table<Texture>& textures, const SurfacePoint& point,
                      Vec3f wo) {

@@ -5,12 +5,15 @@
 #include <optional>
 
 #include "bsdf/bsdf.h"
+#include "bsdf/medium.h"
 
 namespace basicrt {
 
 struct PreparedMaterial {
   Material material;
   std::optional<SurfaceShading> front, back;  // of each side that is uniform
+  std::optional<Medium> medium;               // what its volume is
+  bool is_boundary = false;                   // it has a volume and no surface: light passes straight through
 
   PreparedMaterial(Material the_material, const Table<Texture>& textures);
 };

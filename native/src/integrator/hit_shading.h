@@ -83,6 +83,12 @@ inline void set_start(Ray& ray, const SurfacePoint& point) {
   ray.from_primitive = point.primitive;
 }
 
+// Veach 1997, the power heuristic with exponent two.
+[[nodiscard]] inline float power_heuristic(float pdf, float other_pdf) {
+  const float ratio = other_pdf / pdf;
+  return 1 / (1 + ratio * ratio);
+}
+
 // A ray that leaves the surface, free of hitting it again.
 [[nodiscard]] inline Ray spawn_ray(const SurfacePoint& point, Vec3f direction, std::uint32_t kinds, float time) {
   Ray ray{.origin = offset_origin(point, direction), .direction = direction, .kinds = kinds, .time = time};
@@ -90,10 +96,13 @@ inline void set_start(Ray& ray, const SurfacePoint& point) {
   return ray;
 }
 
+// How much of the way to a light shadow rays go.
+inline constexpr float shadow_ray_share = 1 - 1e-4f;
+
 // A ray from the surface that ends just before what is `distance` away.
 [[nodiscard]] inline Ray spawn_shadow_ray(const SurfacePoint& point, Vec3f direction, float distance, float time) {
   Ray ray = spawn_ray(point, direction, ray_shadow, time);
-  ray.t_max = distance * (1 - 1e-4f);
+  ray.t_max = distance * shadow_ray_share;
   return ray;
 }
 
@@ -113,7 +122,7 @@ inline void set_start(Ray& ray, const SurfacePoint& point) {
   const Vec3f to_light = point.position + direction * distance - ray.origin;  // the same point of it
   const float new_distance = length(to_light);
   ray.direction = to_light * (1 / new_distance);
-  ray.t_max = new_distance * (1 - 1e-4f);
+  ray.t_max = new_distance * shadow_ray_share;
   return ray;
 }
 

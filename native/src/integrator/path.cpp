@@ -12,10 +12,9 @@
 namespace basicrt {
 namespace {
 
-// Veach 1997, the power heuristic with exponent two.
-float power_heuristic(float pdf, float other_pdf) {
-  const float ratio = other_pdf / pdf;
-  return 1 / (1 + ratio * ratio);
+// By light that arrives along wi and leaves along wo.
+bool is_crossed(const SurfacePoint& point, Vec3f wo, Vec3f wi) {
+  return (dot(point.geometric_normal, wo) > 0) != (dot(point.geometric_normal, wi) > 0);
 }
 
 Ray up_to(Ray ray, const SurfacePoint& point) {
@@ -26,7 +25,7 @@ Ray up_to(Ray ray, const SurfacePoint& point) {
 }  // namespace
 
 PathIntegrator::PathIntegrator(const PreparedScene& scene)
-    : scene_(scene), softens_caustics_(softens_caustics(scene.settings)) {}
+    : scene_(scene), has_volumes_(scene.has_volumes), softens_caustics_(softens_caustics(scene.settings)) {}
 
 void PathIntegrator::render(const CameraPaths& paths, std::span<PixelSample> samples) {
   begin(paths, samples);
@@ -41,7 +40,9 @@ void PathIntegrator::begin(const CameraPaths& paths, std::span<PixelSample> samp
   std::fill(samples.begin(), samples.end(), PixelSample{});
   rays_ = paths.rays;
   paths_.clear();
-  for (std::uint32_t i = 0; i < paths.size(); ++i) paths_.push_back({.sample = i, .sampler = paths.samplers[i]});
+  for (std::uint32_t i = 0; i < paths.size(); ++i)
+    paths_.push_back({.sample = i, .media = i, .sampler = paths.samplers[i]});
+  if (has_volumes_) find_camera_media();
 }
 
 void PathIntegrator::extend() { find_hits(scene_.tracer, rays_, hits_); }
@@ -49,6 +50,7 @@ void PathIntegrator::extend() { find_hits(scene_.tracer, rays_, hits_); }
 void PathIntegrator::shade(std::span<PixelSample> samples) {
   shadow_rays_.clear();
   connections_.clear();
+  shadow_media_.clear();
   std::size_t kept = 0;
   points_.begin();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
@@ -57,6 +59,14 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     Ray& ray = rays_[i];
     const Hit& hit = hits_[i];
     PixelSample& sample = samples[path.sample];
+    if (is_in_media(path)) {
+      const Passage passage = pass_media(path, ray, hit, points_[i], sample);
+      if (passage == Passage::scattered) {
+        rays_[kept] = ray;
+        paths_[kept++] = path;
+      }
+      if (passage != Passage::passed) continue;
+    }
     if (!hit.is_hit()) {
       gather_lamps(path, ray, sample);
       gather_distant_lamps(path, ray, sample);
@@ -66,6 +76,13 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
 
     const SurfacePoint& point = points_[i];
     gather_lamps(path, up_to(ray, point), sample);
+    if (has_volumes_ && scene_.material_of(point).is_boundary) {
+      cross_surface(media_[path.media], point);
+      continue_behind(ray, hit, point);
+      rays_[kept] = ray;
+      paths_[kept++] = path;
+      continue;
+    }
     if (path.is_camera_ray && !sample.has_hit) record_first_hit(scene_, point, sample);
 
     SurfaceShading shading = shade_at(scene_, point, -ray.direction);
@@ -121,8 +138,9 @@ void PathIntegrator::add_light(const Path& path, Color radiance, PixelSample& sa
       clamp_light(radiance, path.bounces.total > 1 ? settings.clamp_indirect : settings.clamp_direct);
 }
 
-// Lamps do not block rays: each one between the ray's ends adds its light.
+// Lamps do not block rays: each one between the ray's ends adds its light. pass_media() has seen to those in volumes.
 void PathIntegrator::gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const {
+  if (is_in_media(path)) return;
   scene_.lights.for_each_lamp_hit(ray, path.lit_side, [&](const LightHit& hit) { gather_lamp(path, hit, sample); });
 }
 
@@ -188,6 +206,10 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
   }
   append_result(shadow_rays_, [&] { return spawn_shadow_ray(scene_, point, light->wi, light->distance, ray.time); });
   if (path.destination == Destination::catcher_unlit) shadow_rays_.back().kinds = ray_catcher;
+  if (has_volumes_) {
+    shadow_media_.push_back(media_[path.media]);
+    if (is_crossed(point, -ray.direction, light->wi)) cross_surface(shadow_media_.back(), point);
+  }
   connections_.push_back({path.sample, radiance, path.bounces.transparent, most, path.destination});
 }
 
@@ -209,6 +231,10 @@ void PathIntegrator::pass_catcher(Path& path, Ray& ray, const Hit& hit, const Su
     Ray caught_ray = ray;
     caught.destination = destination;
     caught.shows_film = caught.is_camera_ray = false;
+    if (has_volumes_) {
+      caught.media = static_cast<std::uint32_t>(media_.size());
+      media_.push_back(MediaStack(media_[path.media]));
+    }
     sample_lights(caught, ray, point, bsdf, sample);
     if (!scatter(caught, caught_ray, hit, point, bsdf)) continue;
     caught_paths_.push_back(caught);
@@ -216,11 +242,12 @@ void PathIntegrator::pass_catcher(Path& path, Ray& ray, const Hit& hit, const Su
   }
   path.destination = Destination::behind_catcher;
   count_bounce(path, ScatterKind::transparent);
+  if (has_volumes_) cross_surface(media_[path.media], point);
   continue_behind(ray, hit, point);
 }
 
 // Sends the path on in a sampled direction. False where it ends.
-bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const {
+bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) {
   const float choice = path.sampler.next_1d();
   const std::optional<BsdfSample> scattered = bsdf.sample(-ray.direction, choice, path.sampler.next_2d());
   const bool is_passed = scattered && scattered->kind == ScatterKind::transparent && !path.ends_at_panes;
@@ -229,6 +256,7 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
   if (is_black(path.throughput)) return false;
   count_bounce(path, scattered->kind);
 
+  if (has_volumes_ && is_crossed(point, -ray.direction, scattered->wi)) cross_surface(media_[path.media], point);
   if (scattered->kind == ScatterKind::transparent) {
     continue_behind(ray, hit, point);
     return true;
@@ -261,6 +289,8 @@ void PathIntegrator::count_bounce(Path& path, ScatterKind kind) const {
         return ++bounces.diffuse > settings.diffuse_bounces;
       case ScatterKind::glossy:
         return ++bounces.glossy > settings.glossy_bounces;
+      case ScatterKind::volume:
+        return ++bounces.volume > settings.volume_bounces;
       default:
         return ++bounces.transmission > settings.transmission_bounces;
     }
@@ -291,6 +321,7 @@ bool PathIntegrator::survives_light_roulette(Path& path, Color& radiance) const 
 }
 
 void PathIntegrator::connect(std::span<PixelSample> samples) {
+  if (has_volumes_) return connect_through_media(samples);
   if (scene_.has_transparency) return connect_through_transparency(samples);
   for_each_unoccluded(scene_.tracer, shadow_rays_, connections_, occluded_, [&](const Connection& connection) {
     sum_of(connection.destination, samples[connection.sample]) += clamp_light(connection.radiance, connection.limit);

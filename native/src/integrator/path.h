@@ -8,6 +8,7 @@
 #include "bsdf/bsdf.h"
 #include "integrator/hit_shading.h"
 #include "integrator/integrator.h"
+#include "integrator/media_stack.h"
 
 namespace basicrt {
 
@@ -22,10 +23,11 @@ class PathIntegrator final : public Integrator {
   enum class Destination : std::uint8_t { picture, behind_catcher, catcher_lit, catcher_unlit };
   // Scatterings so far, by kind.
   struct Bounces {
-    int total = 0, diffuse = 0, glossy = 0, transmission = 0, transparent = 0;
+    int total = 0, diffuse = 0, glossy = 0, transmission = 0, transparent = 0, volume = 0;
   };
   struct Path {
-    std::uint32_t sample;  // which of the batch's samples it is for
+    std::uint32_t sample;     // which of the batch's samples it is for
+    std::uint32_t media = 0;  // where there are volumes: which of media_ it is in
     Sampler sampler;
     Color throughput{1.0f};
     Bounces bounces = {};
@@ -70,13 +72,26 @@ class PathIntegrator final : public Integrator {
                                        const Bsdf& bsdf) const;
   void pass_catcher(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf,
                     PixelSample& sample);
-  [[nodiscard]] bool scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) const;
+  [[nodiscard]] bool scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf);
   void count_bounce(Path& path, ScatterKind kind) const;
   [[nodiscard]] bool survives_roulette(Path& path) const;
   [[nodiscard]] bool survives_light_roulette(Path& path, Color& radiance) const;
   void connect_through_transparency(std::span<PixelSample> samples);
 
+  // Volumes: path_volume.cpp. Only called where the scene has some.
+  enum class Passage : std::uint8_t { passed, scattered, ended };
+  void find_camera_media();
+  [[nodiscard]] bool is_in_media(const Path& path) const { return has_volumes_ && !media_[path.media].is_empty(); }
+  [[nodiscard]] Passage pass_media(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point,
+                                   PixelSample& sample);
+  void gather_lamps_in_media(const Path& path, const Ray& ray, Color extinction, PixelSample& sample) const;
+  void sample_lights_in_media(Path& path, const Ray& ray, const MediaSum& media, float length, PixelSample& sample);
+  [[nodiscard]] bool scatter_in_media(Path& path, Ray& ray, float distance);
+  void cross_surface(MediaStack& media, const SurfacePoint& point) const;
+  void connect_through_media(std::span<PixelSample> samples);
+
   const PreparedScene& scene_;
+  bool has_volumes_;
   bool softens_caustics_;
   std::vector<Path> paths_;
   std::vector<Ray> rays_;           // the next one of each path
@@ -87,6 +102,8 @@ class PathIntegrator final : public Integrator {
   std::vector<Ray> shadow_rays_;
   std::vector<Connection> connections_;
   std::vector<std::uint8_t> occluded_;
+  std::vector<MediaStack> media_;         // what paths are in, where there are volumes
+  std::vector<MediaStack> shadow_media_;  // what each shadow ray is in
 };
 
 }  // namespace basicrt

@@ -2,6 +2,7 @@
 // Materials: one shader, or shaders mixed and added.
 #include <array>
 #include <map>
+#include <variant>
 
 #include "io/described_json.h"
 #include "io/scene_reader.h"
@@ -22,20 +23,23 @@ class MaterialReader {
   MaterialReader(const SceneReader& reader, Material& material) : reader_(reader), material_(material) {}
 
   void read_material(const JsonValue& json) {
-    if (json.find("nodes"))
-      read_nodes(json);
-    else
-      material_.surface = read_shader(json);
+    if (json.find("nodes") || json.find("surface") || json.find("volume")) return read_nodes(json);
+    const NodeIndex shader = read_shader(json);
+    const bool is_volume = std::holds_alternative<VolumeShader>(material_.nodes[shader]);
+    (is_volume ? material_.volume : material_.surface) = shader;
   }
 
  private:
   void read_nodes(const JsonValue& json) {
-    json.check_keys(std::array<std::string_view, 3>{"nodes", "surface", "name"});
+    json.check_keys(std::array<std::string_view, 4>{"nodes", "surface", "volume", "name"});
     read_optional(json, "name", material_.name);
-    const JsonValue nodes = json.require("nodes");
-    nodes.expect_array();
-    for (std::size_t i = 0; i < nodes.size(); ++i) entries_.push_back(read_shader(nodes.item(i)));
+    if (const auto nodes = json.find("nodes")) {
+      nodes->expect_array();
+      for (std::size_t i = 0; i < nodes->size(); ++i) entries_.push_back(read_shader(nodes->item(i)));
+    }
     if (const auto surface = json.find("surface")) read_input(*surface, material_.surface);
+    reads_volume_ = true;
+    if (const auto volume = json.find("volume")) read_input(*volume, material_.volume);
   }
 
   NodeIndex read_shader(const JsonValue& json) {
@@ -90,7 +94,8 @@ class MaterialReader {
     });
   }
 
-  // What Mix, Add and the surface refer to: a shader, an earlier material's name, an earlier entry of "nodes", or null.
+  // What Mix, Add, the surface and the volume refer to: a shader, an earlier material's name, an earlier entry of "nodes",
+  // or null.
   void read_input(const JsonValue& value, NodeIndex& out) {
     if (value.json().is_null())
       out = no_node;
@@ -109,22 +114,24 @@ class MaterialReader {
     return entries_[entry];
   }
 
-  // Materials share no nodes, so each that is referred to is copied, once.
+  // Materials share no nodes, so each that is referred to is copied, once. Its volume where that is asked for, or where it
+  // has nothing else.
   NodeIndex copy_material(Id<Material> id) {
-    const auto [copy, is_new] = copies_.try_emplace(id.index, no_node);
+    const auto [copy, is_new] = copies_.try_emplace(id.index);
     if (is_new) copy->second = append_nodes(material_, reader_.scene.materials[id]);
-    return copy->second;
+    return reads_volume_ || copy->second.surface == no_node ? copy->second.volume : copy->second.surface;
   }
 
   const SceneReader& reader_;
   Material& material_;
-  std::vector<NodeIndex> entries_;             // the nodes that the entries of "nodes" became
-  std::map<std::uint32_t, NodeIndex> copies_;  // by the other material's index
+  bool reads_volume_ = false;
+  std::vector<NodeIndex> entries_;                 // the nodes that the entries of "nodes" became
+  std::map<std::uint32_t, MaterialRoots> copies_;  // by the other material's index
 };
 
 }  // namespace
 
-NodeIndex append_nodes(Material& material, const Material& other) {
+MaterialRoots append_nodes(Material& material, const Material& other) {
   const auto offset = static_cast<NodeIndex>(material.nodes.size());
   const auto move_index = [&](NodeIndex& index) {
     if (index != no_node) index += offset;
@@ -139,9 +146,10 @@ NodeIndex append_nodes(Material& material, const Material& other) {
         node);
     material.add(node);
   }
-  NodeIndex surface = other.surface;
-  move_index(surface);
-  return surface;
+  MaterialRoots roots{other.surface, other.volume};
+  move_index(roots.surface);
+  move_index(roots.volume);
+  return roots;
 }
 
 void read_materials(SceneReader& reader, const JsonValue& materials) {
@@ -151,6 +159,10 @@ void read_materials(SceneReader& reader, const JsonValue& materials) {
     MaterialReader(reader, material).read_material(materials.member(name));
     reader.materials.add(name, reader.scene.materials.append(std::move(material)));
   }
+}
+
+void read_world_volume(SceneReader& reader, const JsonValue& name) {
+  reader.scene.world_volume = reader.materials.resolve(name);
 }
 
 }  // namespace basicrt

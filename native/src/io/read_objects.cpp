@@ -66,7 +66,9 @@ Id<Material> append_emissive(SceneReader& reader, Id<Material> base, const Emiss
   NodeIndex reflecting = no_node;
   if (base.is_valid()) {
     material.name = reader.scene.materials[base].name;
-    reflecting = append_nodes(material, reader.scene.materials[base]);
+    const MaterialRoots roots = append_nodes(material, reader.scene.materials[base]);
+    reflecting = roots.surface;
+    material.volume = roots.volume;
   }
   const NodeIndex emitting = material.add(emission);
   material.surface =

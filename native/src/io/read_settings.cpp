@@ -31,6 +31,7 @@ void set_path_depth(const JsonValue& max_depth, Settings& settings) {
   settings.max_bounces = surfaces - 1;
   settings.diffuse_bounces = settings.glossy_bounces = settings.max_bounces;
   settings.transmission_bounces = settings.transparent_bounces = settings.max_bounces;
+  settings.volume_bounces = settings.max_bounces;
 }
 
 void read_path(SceneReader& reader, const JsonValue& integrator) {

@@ -25,6 +25,8 @@ constexpr std::array root_keys = {
     RootKey{"images", read_images},
     RootKey{"textures", read_textures},
     RootKey{"materials", read_materials},
+    RootKey{"world_volume", read_world_volume},
+    // What stands in the scene, and what lights it:
     RootKey{"shapes", read_shapes},
     RootKey{"objects", read_objects},
     RootKey{"lights", read_lights},

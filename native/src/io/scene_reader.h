@@ -63,8 +63,12 @@ inline constexpr std::array<std::string_view, 7> image_keys = {"path",   "width"
 // From such an object and no other keys, or by its name.
 [[nodiscard]] Image read_image(SceneReader& reader, const JsonValue& value);
 
-// Appends copies of the nodes of `other`; returns where its surface is now.
-NodeIndex append_nodes(Material& material, const Material& other);
+// Where a material's graphs end.
+struct MaterialRoots {
+  NodeIndex surface = no_node, volume = no_node;
+};
+// Appends copies of the nodes of `other`; returns where its roots are now.
+MaterialRoots append_nodes(Material& material, const Material& other);
 
 // An object with a "type": its shape is appended (or found, for an OBJ file that was read before). `extra_keys` are
 // known to the caller.
@@ -74,6 +78,7 @@ Id<Shape> read_shape(SceneReader& reader, const JsonValue& object, std::span<con
 void read_images(SceneReader& reader, const JsonValue& images);
 void read_textures(SceneReader& reader, const JsonValue& textures);
 void read_materials(SceneReader& reader, const JsonValue& materials);
+void read_world_volume(SceneReader& reader, const JsonValue& name);
 void read_shapes(SceneReader& reader, const JsonValue& shapes);
 void read_objects(SceneReader& reader, const JsonValue& objects);
 void read_lights(SceneReader& reader, const JsonValue& lights);

@@ -113,13 +113,14 @@ Json write_shader(const ShaderNode& node, const SceneKeys& keys) {
 }
 
 Json write_material(const Material& material, const std::string& key, const SceneKeys& keys) {
-  if (material.nodes.size() == 1 && material.surface == 0 && material.name == key)
+  if (material.nodes.size() == 1 && material.surface == 0 && material.volume == no_node && material.name == key)
     return write_shader(material.nodes[0], keys);
   Json json = Json::object();
   if (material.name != key) json["name"] = material.name;
   json["nodes"] = Json::array();
   for (const ShaderNode& node : material.nodes) json["nodes"].push_back(write_shader(node, keys));
   if (material.surface != no_node) json["surface"] = material.surface;
+  if (material.volume != no_node) json["volume"] = material.volume;
   return json;
 }
 
@@ -191,6 +192,7 @@ std::string scene_to_json(const Scene& scene) {
   json["materials"] = Json::object();
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
     json["materials"][keys.materials[i]] = write_material(scene.materials[i], keys.materials[i], keys);
+  if (scene.world_volume.is_valid()) json["world_volume"] = keys.materials.at(scene.world_volume.index);
   json["shapes"] = Json::object();
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) json["shapes"][keys.shapes[i]] = write_shape(scene.shapes[i]);
   json["objects"] = Json::array();

@@ -133,6 +133,25 @@ float shadow_terminator_offset(const Scene& scene, const Instance& instance) {
   return mesh && !mesh->corner_normals.empty() ? instance.shadow_terminator_offset : 0;
 }
 
+// Where the volumes are, and whether there are any.
+void find_volumes(const Scene& scene, PreparedScene& prepared) {
+  const auto has_medium = [&](std::uint32_t material) { return prepared.materials[material].medium.has_value(); };
+  for (const PreparedScene::PreparedInstance& instance : prepared.instances) {
+    if (!std::ranges::any_of(instance.materials, has_medium)) continue;
+    const Bounds3f local = bounds(prepared.shapes[instance.shape]);
+    Bounds3f world;
+    const auto extend_by = [&](const TransformD& object_to_world) {
+      world.extend(transform_bounds(Transform(object_to_world), local));
+    };
+    if (instance.motion.empty()) extend_by(instance.placement.object_to_world);
+    for (const TransformD& key : instance.motion) extend_by(key);
+    prepared.volume_bounds.push_back(world);
+  }
+  if (scene.world_volume.is_valid() && has_medium(scene.world_volume.index))
+    prepared.world_volume = scene.world_volume.index;
+  prepared.has_volumes = !prepared.volume_bounds.empty() || prepared.world_volume != Id<Material>::none;
+}
+
 std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::uint32_t index) {
   const PreparedScene::PreparedInstance& instance = scene.instances[index];
   EmissiveInstance result{.instance = index,
@@ -197,6 +216,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     prepared.has_motion = prepared.has_motion || !added.motion.empty() || (mesh && mesh->is_deforming());
     prepared.has_shadow_catchers = prepared.has_shadow_catchers || instance.is_shadow_catcher;
   }
+  find_volumes(scene, prepared);
   for (const PreparedMaterial& prepared_material : prepared.materials)
     prepared.has_transparency = prepared.has_transparency || is_transparent(prepared_material.material);
   prepared.tracer = Tracer(std::move(trees), std::move(traced), config);

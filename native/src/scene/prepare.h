@@ -41,8 +41,11 @@ struct PreparedScene {
   std::vector<PreparedInstance> instances;
   Tracer tracer;
   LightSet lights;
-  bool has_transparency = false;  // shadow rays must look at what they hit
-  bool has_motion = false;        // rays have a time
+  std::uint32_t world_volume = ~0u;     // the index of its material; none: space is empty
+  std::vector<Bounds3f> volume_bounds;  // of each instance that is filled with a volume, at all times
+  bool has_volumes = false;             // paths must know what they are in
+  bool has_transparency = false;        // shadow rays must look at what they hit
+  bool has_motion = false;              // rays have a time
   bool has_shadow_catchers = false;
 
   [[nodiscard]] const PreparedMaterial& material_of(const SurfacePoint& point) const {

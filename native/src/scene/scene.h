@@ -40,6 +40,7 @@ struct Scene {
   Table<Instance> instances;
   Table<Light> lights;
   Environment environment;
+  Id<Material> world_volume;  // whose volume fills all space, within shapes too; none: nothing does
   std::optional<Camera> camera;
   RenderSettings settings;
 };

@@ -49,6 +49,7 @@ struct RenderSettings {
   IntegratorKind integrator = IntegratorKind::path;
   // Path: scatterings of each kind after which a path ends, counted as Blender does.
   int max_bounces = 12, diffuse_bounces = 4, glossy_bounces = 4, transmission_bounces = 12, transparent_bounces = 8;
+  int volume_bounces = 0;
   float roulette_threshold = 0.5f;  // paths with less throughput than this are ended by chance
   float light_threshold = 0;        // light samples that would add less than this are left out by chance; 0 is none
   float clamp_direct = 0, clamp_indirect = 0;  // the most that a path adds, as the mean of r, g and b; 0 is none
@@ -94,6 +95,7 @@ struct RenderSettings {
         field("glossy_bounces", &S::glossy_bounces, "glossy reflections after which a path ends", within(0, 1024)),
         field("transmission_bounces", &S::transmission_bounces, "transmissions after which a path ends",
               within(0, 1024)),
+        field("volume_bounces", &S::volume_bounces, "scatterings in volumes after which a path ends", within(0, 1024)),
         field("transparent_bounces", &S::transparent_bounces, "transparent surfaces after which a ray ends",
               within(0, 1024)),
         field("rr_threshold", &S::roulette_threshold, "throughput under which Russian roulette begins", within(0, 1)),

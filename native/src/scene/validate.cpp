@@ -113,6 +113,9 @@ void validate_materials(const Scene& scene) {
     if (material.surface != no_node && material.surface >= material.nodes.size())
       throw SceneError(item + ".surface", "node " + std::to_string(material.surface) + ", but the material has " +
                                               std::to_string(material.nodes.size()) + " nodes");
+    if (material.volume != no_node && material.volume >= material.nodes.size())
+      throw SceneError(item + ".volume", "node " + std::to_string(material.volume) + ", but the material has " +
+                                             std::to_string(material.nodes.size()) + " nodes");
     if (const int lobes = lobe_count(material); lobes > Bsdf::max_lobes)
       throw SceneError(item, "combines more shaders than can be rendered: its graph makes " + std::to_string(lobes) +
                                  " lobes, but at most " + std::to_string(Bsdf::max_lobes) + " are allowed");
@@ -163,6 +166,7 @@ void validate_lights(const Scene& scene) {
     if (sun && length_squared(Vec3d(sun->direction)) == 0) throw SceneError(item + ".direction", "must not be zero");
   }
   validate_environment(scene.environment);
+  if (scene.world_volume.is_valid()) validate_id(scene.world_volume, scene.materials, "world_volume", "materials");
 }
 
 template <class CameraKind>

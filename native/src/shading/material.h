@@ -190,6 +190,36 @@ struct PrincipledShader {
   }
 };
 
+// How a volume turns light. Mie is the approximation of Jendersie and d'Eon 2023 by the diameter of water droplets.
+enum class PhaseKind : std::uint8_t { henyey_greenstein, rayleigh, draine, fournier_forand, mie };
+template <>
+inline constexpr std::array enum_names<PhaseKind> =
+    std::to_array<std::string_view>({"henyey_greenstein", "rayleigh", "draine", "fournier_forand", "mie"});
+
+// A volume that is the same everywhere, by its coefficients.
+struct VolumeShader {
+  Color absorption{0.0f}, scattering{0.0f}, emission{0.0f};
+  PhaseKind phase = PhaseKind::henyey_greenstein;
+  float anisotropy = 0, alpha = 0.5f, ior = 1.33f, backscatter = 0.1f, diameter = 20;
+  static constexpr std::string_view kind = "volume";
+  static constexpr auto fields() {
+    using V = VolumeShader;
+    return std::tuple{
+        field("absorption", &V::absorption, "share of the light that each metre takes away, 1 / m", at_least(0)),
+        field("scattering", &V::scattering, "share of the light that each metre scatters, 1 / m", at_least(0)),
+        field("emission", &V::emission, "radiance that each metre adds, W / (m^3 sr)", at_least(0)),
+        field("phase", &V::phase,
+              "how scattered light turns: henyey_greenstein, rayleigh, draine, fournier_forand or mie"),
+        field("anisotropy", &V::anisotropy, "henyey_greenstein, draine: above 0 forwards, below 0 backwards",
+              within(-1, 1)),
+        field("alpha", &V::alpha, "draine: 0 is henyey_greenstein, 1 with anisotropy 0 is rayleigh", at_least(0)),
+        field("ior", &V::ior, "fournier_forand: refractive index of the particles", above(1)),
+        field("backscatter", &V::backscatter, "fournier_forand: share of the light that is scattered backwards",
+              within(0, 0.5)),
+        field("diameter", &V::diameter, "mie: of the droplets, micrometres", within(0, 50))};
+  }
+};
+
 struct MixShader {
   ShareInput factor = 0.5f;
   NodeIndex first = no_node, second = no_node;
@@ -212,14 +242,15 @@ struct AddShader {
 
 using ShaderNode =
     std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader, TransparentShader,
-                 EmissionShader, HoldoutShader, PrincipledShader, MixShader, AddShader>;
+                 EmissionShader, HoldoutShader, PrincipledShader, VolumeShader, MixShader, AddShader>;
 
 // A node refers only to nodes before it, so there is no cycle. A Mix or Add input of no_node is black and opaque,
 // as an empty socket is in Blender.
 struct Material {
   std::string name;
   std::vector<ShaderNode> nodes;
-  NodeIndex surface = no_node;  // none: black, opaque
+  NodeIndex surface = no_node;  // none: black, opaque; with a volume nothing but the volume's boundary
+  NodeIndex volume = no_node;   // what fills the shape: of VolumeShader and EmissionShader nodes, mixed and added
 
   NodeIndex add(ShaderNode node) {
     nodes.push_back(std::move(node));

@@ -68,11 +68,14 @@ Scene make_full_scene() {
       PrincipledShader{.base_color = textured, .metallic = 0.9f, .emission = Color(0.1f, 0, 0), .alpha = shared});
   const NodeIndex mix = material.add(MixShader{.factor = 0.1f, .first = first, .second = no_node});
   material.surface = material.add(AddShader{.first = mix, .second = emission});
+  material.volume = material.add(VolumeShader{
+      .absorption = {1, 2, 3}, .scattering = {0.1f, 0.2f, 0.3f}, .phase = PhaseKind::draine, .anisotropy = 0.5f});
   scene.materials.append(material);
   scene.materials.append(Material{.name = "", .nodes = {GlassShader{}}, .surface = 0});
   scene.materials.append(Material{.name = "twin", .nodes = {GlassShader{}}, .surface = 0});
   scene.materials.append(Material{.name = "twin", .nodes = {GlassShader{}, DiffuseShader{}}, .surface = 0});
   scene.materials.append(Material{.name = "material1", .nodes = {}});
+  scene.world_volume = scene.materials.append(Material{.name = "fog", .nodes = {VolumeShader{}}, .volume = 0});
 
   scene.shapes.append(
       Mesh{.positions = {{0.1f, 0, 0}, {1, 0, 1.0f / 3}, {0, 1, 0}},
@@ -112,10 +115,12 @@ TEST(WriteScene, tables_keep_their_order_and_names) {
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
     EXPECT_EQ(loaded.materials[i].name, scene.materials[i].name);
     EXPECT_EQ(loaded.materials[i].surface, scene.materials[i].surface);
+    EXPECT_EQ(loaded.materials[i].volume, scene.materials[i].volume);
     ASSERT_EQ(loaded.materials[i].nodes.size(), scene.materials[i].nodes.size());
     for (std::size_t node = 0; node < scene.materials[i].nodes.size(); ++node)
       EXPECT_EQ(loaded.materials[i].nodes[node].index(), scene.materials[i].nodes[node].index());
   }
+  EXPECT_EQ(loaded.world_volume, scene.world_volume);
   ASSERT_EQ(loaded.instances.size(), scene.instances.size());
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     EXPECT_EQ(loaded.instances[i].name, scene.instances[i].name);

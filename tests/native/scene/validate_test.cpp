@@ -80,6 +80,8 @@ TEST(Validate, nodes_refer_backwards) {
   EXPECT_EQ(problem_of_material({.name = "", .nodes = {DiffuseShader{}}, .surface = 1}),
             "materials[1].surface: node 1, but the material has 1 nodes");
   EXPECT_EQ(problem_of_material({.name = "", .nodes = {MixShader{}}, .surface = 0}), "");
+  EXPECT_EQ(problem_of_material({.name = "", .nodes = {VolumeShader{}}, .volume = 1}),
+            "materials[1].volume: node 1, but the material has 1 nodes");
 }
 
 // Shading has room for so many lobes and no more: one more would be written past its end.
