@@ -90,6 +90,7 @@ def convert(
     settings.diffuse_bounces = chosen.diffuse_bounces
     settings.glossy_bounces = chosen.glossy_bounces
     settings.transmission_bounces = chosen.transmission_bounces
+    settings.volume_bounces = chosen.volume_bounces
     settings.transparent_bounces = chosen.transparent_bounces
     settings.clamp_direct, settings.clamp_indirect = chosen.clamp_direct, chosen.clamp_indirect
     settings.blur_glossy = chosen.blur_glossy

@@ -9,7 +9,7 @@ import bpy
 
 import basicrt
 
-from ..nodes import Textures, translate_world
+from ..nodes import Textures, translate_world, translate_world_volume
 from ..report import Report
 
 
@@ -24,3 +24,10 @@ def convert(
         return environment
     color: Any = b_world.color
     return basicrt.Environment(radiance=tuple(color))
+
+
+def convert_volume(
+    b_world: bpy.types.World | None, report: Report, textures: Textures
+) -> basicrt.Material | None:
+    """A material whose volume fills all space, None where nothing does."""
+    return translate_world_volume(b_world, report, textures) if b_world else None

@@ -5,6 +5,13 @@ from __future__ import annotations
 
 from .images import Textures
 from .translate import Emission, emission_of, translate_surface
-from .world import translate_world
+from .world import translate_world, translate_world_volume
 
-__all__ = ["Emission", "Textures", "emission_of", "translate_surface", "translate_world"]
+__all__ = [
+    "Emission",
+    "Textures",
+    "emission_of",
+    "translate_surface",
+    "translate_world",
+    "translate_world_volume",
+]

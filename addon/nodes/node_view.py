@@ -69,6 +69,8 @@ class Translation:
     report: Report
     material: basicrt.Material
     textures: Textures
+    # A volume is the same everywhere: nothing in it may vary.
+    is_volume: bool = False
     # Names of the UV maps that textures ask for.
     uv_maps: set[str] = field(default_factory=set)
     # Nodes that are done: one node may feed several others.
@@ -97,9 +99,12 @@ class Translation:
             return view.add(
                 basicrt.EmissionShader(radiance=positive(as_color(view.output_value())))
             )
-        if view.bl_idname in TEXTURES:
+        if view.bl_idname in TEXTURES and not self.is_volume:
             reference = basicrt.TextureRef(TEXTURES[view.bl_idname](view))
             return view.add(basicrt.EmissionShader(radiance=reference))
+        if self.is_volume:
+            self.warn(f"{view.title} is not supported in a volume and left out")
+            return None
         self.warn(f"{view.title} is not supported: drawn as diffuse grey")
         return view.add(basicrt.DiffuseShader(color=(0.8, 0.8, 0.8), twosided=True))
 
@@ -194,7 +199,9 @@ class NodeView:
                 self.warn(f"{identifier} is not supported and left out")
 
     def _texture_at(self, identifier: str, is_share: bool = False) -> basicrt.TextureRef | None:
-        """The texture that is linked to an input, None where none is."""
+        """The texture that is linked to an input, None where none is or may be."""
+        if self.translation.is_volume:
+            return None
         socket = find_socket(self.node.inputs, identifier)
         source = trace(Place(socket, self.groups)) if socket else None
         node: Any = source.socket.node if source and source.socket.is_output else None

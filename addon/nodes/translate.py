@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whole node trees: a material's surface, and the light that a lamp gives off."""
+"""Whole node trees: a material's surface and volume, and the light that a lamp gives off."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import basicrt
 
 from .. import compat
 from ..report import Report
-from . import shaders, textures, values
+from . import shaders, textures, values, volumes
 from .graph import Place, find_socket, trace
 from .images import Textures
 from .node_view import Color, NodeView, Translation, scaled, unit
@@ -20,6 +20,7 @@ from .node_view import Color, NodeView, Translation, scaled, unit
 assert shaders
 assert textures
 assert values
+assert volumes
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ def is_linked(tree: bpy.types.ShaderNodeTree, identifier: str) -> bool:
 def translate_surface(
     b_material: bpy.types.Material, report: Report, store: Textures
 ) -> basicrt.Material:
-    """The surface of a material, with a warning for each thing that is not as in Blender.
+    """A material's surface and volume, with a warning for each thing that is not as in Blender.
 
     Its textures are added to `store`.
     """
@@ -57,15 +58,32 @@ def translate_surface(
             material.surface = material.add(basicrt.DiffuseShader(color=color, twosided=True))
             return material
         translation = Translation(f'material "{b_material.name}"', report, material, store)
-        for identifier in ("Volume", "Displacement"):
-            if is_linked(tree, identifier):
-                translation.warn(f"{identifier} is not supported and left out")
+        if is_linked(tree, "Displacement"):
+            translation.warn("Displacement is not supported and left out")
         place = output_place(tree, "Surface")
         if place is not None:
             material.surface = translation.shader_at(place)
+        fill(translation, tree)
         if translation.uv_maps:
             store.uv_maps[b_material.name] = translation.uv_maps
     return material
+
+
+def fill(surface: Translation, tree: bpy.types.ShaderNodeTree) -> None:
+    """Fills the material with the volume of its nodes, where they have one.
+
+    A volume that is linked leaves a surface that isn't as a mere boundary, whatever comes of it.
+    """
+    place = output_place(tree, "Volume")
+    if place is None or not is_linked(tree, "Volume"):
+        return
+    material = surface.material
+    translation = Translation(
+        surface.item, surface.report, material, surface.textures, is_volume=True
+    )
+    material.volume = translation.shader_at(place)
+    if material.volume is None:
+        material.volume = material.add(basicrt.VolumeShader())
 
 
 def emission_of(b_light: bpy.types.Light, report: Report) -> Emission | None:

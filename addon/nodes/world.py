@@ -19,7 +19,7 @@ from .images import MISSING, Textures
 from .node_view import Color, NodeView, Translation, as_color, positive, scaled
 from .sky import convert_sky
 from .textures import INTERPOLATIONS
-from .translate import is_linked, output_place
+from .translate import fill, output_place
 
 _TEXTURES = ("ShaderNodeTexEnvironment", "ShaderNodeTexSky")
 _PROJECTIONS = {"EQUIRECTANGULAR": "equirectangular", "MIRROR_BALL": "mirror_ball"}
@@ -45,8 +45,6 @@ def translate_world(
         if tree is None:
             return None
         translation = Translation(f'world "{b_world.name}"', report, basicrt.Material(), store)
-        if is_linked(tree, "Volume"):
-            translation.warn("Volume is not supported and left out")
         environment = basicrt.Environment()
         place = output_place(tree, "Surface")
         if place is not None:
@@ -58,6 +56,17 @@ def translate_world(
             environment.radiance = radiance
             environment.layers = [layer for layer in layers if not _is_plain(layer)]
     return environment
+
+
+def translate_world_volume(
+    b_world: bpy.types.World, report: Report, store: Textures
+) -> basicrt.Material | None:
+    """A material whose volume is the world's, None where that has none."""
+    material = basicrt.Material(name=b_world.name)
+    with compat.inlined_nodes(b_world) as tree:
+        if tree is not None:
+            fill(Translation(f'world "{b_world.name}"', report, material, store), tree)
+    return material if material.volume is not None else None
 
 
 def _is_plain(layer: basicrt.EnvironmentLayer) -> bool:

@@ -32,6 +32,7 @@ CYCLES_NAMES = {
     "diffuse_bounces": "diffuse_bounces",
     "glossy_bounces": "glossy_bounces",
     "transmission_bounces": "transmission_bounces",
+    "volume_bounces": "volume_bounces",
     "transparent_bounces": "transparent_max_bounces",
     "adaptive_threshold": "adaptive_threshold",
     "adaptive_min_samples": "adaptive_min_samples",

@@ -53,6 +53,7 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         diffuse_bounces: int
         glossy_bounces: int
         transmission_bounces: int
+        volume_bounces: int
         transparent_bounces: int
         clamp_direct: float
         clamp_indirect: float
@@ -144,6 +145,9 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         diffuse_bounces: _bounces("Diffuse", 4, "Most diffuse reflections of a path")
         glossy_bounces: _bounces("Glossy", 4, "Most glossy reflections of a path")
         transmission_bounces: _bounces("Transmission", 12, "Most refractions of a path")
+        volume_bounces: _bounces(
+            "Volume", 0, "Most scatterings of a path in volumes after the first"
+        )
         transparent_bounces: _bounces(
             "Transparent", 8, "Most transparent surfaces that a ray passes straight through"
         )

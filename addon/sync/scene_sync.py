@@ -92,7 +92,18 @@ def _fill(
     textures = Textures(scene)
     b_world = compat.view_layer_world(b_scene, b_view_layer)
     scene.environment = world.convert(b_world, report, textures)
+    _fill_space(exported, b_world, report, textures)
     _InstanceExport(exported, depsgraph, report, textures, movement).run()
+
+
+def _fill_space(
+    exported: Export, b_world: bpy.types.World | None, report: Report, textures: Textures
+) -> None:
+    """The volume of the world, if it has one."""
+    volume = world.convert_volume(b_world, report, textures)
+    if b_world is not None and volume is not None:
+        exported.names["materials"].append(f'world "{b_world.name}"')
+        exported.scene.world_volume = exported.scene.materials.append(volume)
 
 
 class _InstanceExport:

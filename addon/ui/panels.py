@@ -94,7 +94,7 @@ class BASICRT_RENDER_PT_light_paths(_Panel, bpy.types.Panel):
         column = self.column()
         _draw(column, context, "max_bounces")
         column.separator()
-        for kind in ("diffuse", "glossy", "transmission", "transparent"):
+        for kind in ("diffuse", "glossy", "transmission", "volume", "transparent"):
             _draw(column, context, f"{kind}_bounces")
 
 

@@ -384,17 +384,12 @@ def test_normal_maps_are_reported() -> None:
     only_node(material, 'node "Diffuse BSDF": Normal is not supported and left out')
 
 
-def test_displacement_and_volume_are_reported() -> None:
+def test_displacement_is_reported() -> None:
     material, tree, output = empty_material()
     tree.links.new(
         tree.nodes.new("ShaderNodeDisplacement").outputs[0], output.inputs["Displacement"]
     )
-    tree.links.new(tree.nodes.new("ShaderNodeVolumeAbsorption").outputs[0], output.inputs["Volume"])
-    translate(
-        material,
-        "Volume is not supported and left out",
-        "Displacement is not supported and left out",
-    )
+    translate(material, "Displacement is not supported and left out")
 
 
 @pytest.mark.parametrize(

@@ -121,6 +121,7 @@ def make_cycles_neutral(scene: Any) -> None:
     cycles.max_bounces, cycles.diffuse_bounces = own.max_bounces, own.diffuse_bounces
     cycles.glossy_bounces = own.glossy_bounces
     cycles.transmission_bounces = own.transmission_bounces
+    cycles.volume_bounces = own.volume_bounces
     cycles.transparent_max_bounces = own.transparent_bounces
     cycles.pixel_filter_type, cycles.filter_width = own.filter_type, own.filter_width
     for made in scene.objects:
