@@ -237,12 +237,7 @@ class _InstanceExport:
     ) -> bool:
         """Whether only shadows on it are seen: itself or what instances it says so."""
         b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
-        is_catcher = bool(b_object.is_shadow_catcher or b_root.is_shadow_catcher)
-        if is_catcher:
-            self._report.warn(
-                f'object "{b_object.name}"', "the shadows on shadow catchers are approximate"
-            )
-        return is_catcher
+        return bool(b_object.is_shadow_catcher or b_root.is_shadow_catcher)
 
     def _visibility_of(
         self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object
