@@ -160,6 +160,7 @@ class _InstanceExport:
                 holdout=self._is_holdout(b_instance, b_object),
                 shadow_catcher=self._is_shadow_catcher(b_instance, b_object),
                 shadow_terminator_offset=compat.shadow_terminator_offset(b_object),
+                shadow_terminator_shading_offset=compat.shadow_terminator_shading_offset(b_object),
             )
         )
         if self._movement is not None:

@@ -104,6 +104,20 @@ def test_a_smooth_shaded_ball_under_grazing_sun(angle: float, tmp_path: Path) ->
     expect_alike(ours, theirs, relative=0.004, cells=8)
 
 
+def test_a_shading_offset_dims_grazing_light(tmp_path: Path) -> None:
+    scene = neutral_scene(24, samples=64)
+    set_world((0.5, 0.6, 0.7), 0.3)
+    ball = add_smooth_ball(16, 8, new_material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.8, 0.8)))
+    ball.shadow_terminator_shading_offset = 0.6
+    glossy = new_material("ShaderNodeBsdfAnisotropic", Color=(0.8, 0.8, 0.8), Roughness=0.5)
+    other = add_smooth_ball(16, 8, glossy)
+    other.location.x, other.shadow_terminator_shading_offset = 2.1, 1.0
+    add_lamp("SUN", rotation=(math.radians(60), 0, math.radians(20)), energy=3)
+    add_camera((1, 0, 5), ortho_scale=4.4)
+    ours, theirs = both(scene, tmp_path)
+    expect_alike(ours, theirs, relative=0.004, cells=8)
+
+
 def glass_over_floor() -> None:
     add_plane(6, 0, new_material("ShaderNodeBsdfDiffuse", Color=(0.8, 0.8, 0.8)))
     ball = add_smooth_ball(
