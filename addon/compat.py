@@ -120,10 +120,18 @@ def is_light_normalized(light: bpy.types.Light) -> bool:
 
 def shadow_terminator_offset(b_object: bpy.types.Object) -> float:
     """The geometry offset of shadow rays: Blender's own from 4.3 on, before that Cycles'."""
-    name = "shadow_terminator_geometry_offset"
     data: Any = b_object
+    name = "shadow_terminator_geometry_offset"
     owner = data if hasattr(data, name) else getattr(data, "cycles", None)
     return float(getattr(owner, name, 0.1))
+
+
+def shadow_terminator_shading_offset(b_object: bpy.types.Object) -> float:
+    """How much grazing light is dimmed: Blender's own from 4.3 on, before that Cycles'."""
+    data: Any = b_object
+    if hasattr(data, "shadow_terminator_shading_offset"):
+        return float(data.shadow_terminator_shading_offset)
+    return float(getattr(getattr(data, "cycles", None), "shadow_terminator_offset", 0.0))
 
 
 def light_max_bounces(light: bpy.types.Light) -> int:

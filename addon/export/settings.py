@@ -100,9 +100,8 @@ def convert(
 
     _convert_filter(chosen, settings)
     settings.film_transparent_glass = chosen.film_transparent_glass
-    if b_render.film_transparent and chosen.film_transparent_glass:
-        report.warn(f'scene "{b_scene.name}"', "the holes behind transparent glass are approximate")
-    settings.film_transparent_roughness = chosen.film_transparent_roughness
+    # An alpha, and a hair more: what is as rough as the threshold counts.
+    settings.film_transparent_roughness = min(chosen.film_transparent_roughness**2 * 1.00001, 1.0)
     settings.exposure = chosen.film_exposure
     settings.shutter_curve = shutter_curve(b_render) if b_render.use_motion_blur else []
     settings.film_transparent = b_render.film_transparent

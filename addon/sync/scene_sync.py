@@ -171,6 +171,7 @@ class _InstanceExport:
                 holdout=self._is_holdout(b_instance, b_object),
                 shadow_catcher=self._is_shadow_catcher(b_instance, b_object),
                 shadow_terminator_offset=compat.shadow_terminator_offset(b_object),
+                shadow_terminator_shading_offset=compat.shadow_terminator_shading_offset(b_object),
             )
         )
         if self._movement is not None:
@@ -248,12 +249,7 @@ class _InstanceExport:
     ) -> bool:
         """Whether only shadows on it are seen: itself or what instances it says so."""
         b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
-        is_catcher = bool(b_object.is_shadow_catcher or b_root.is_shadow_catcher)
-        if is_catcher:
-            self._report.warn(
-                f'object "{b_object.name}"', "the shadows on shadow catchers are approximate"
-            )
-        return is_catcher
+        return bool(b_object.is_shadow_catcher or b_root.is_shadow_catcher)
 
     def _visibility_of(
         self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object

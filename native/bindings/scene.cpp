@@ -76,7 +76,9 @@ void bind_instance(py::module_& m) {
       make_attribute(field("shadow_terminator_offset", &Instance::shadow_terminator_offset,
                            "cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not "
                            "the facets",
-                           within(0, 1)))};
+                           within(0, 1))),
+      make_attribute(field("shadow_terminator_shading_offset", &Instance::shadow_terminator_shading_offset,
+                           "how much light is dimmed that grazes the object", within(0, 1)))};
   bind_fields<Instance>(m, "Instance", "A shape placed in the world.", attributes);
 }
 

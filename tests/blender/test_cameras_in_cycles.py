@@ -113,11 +113,7 @@ def blurred_lights(kind: str, **dof: Any) -> Any:
     ("kind", "dof"),
     [
         ("PERSP", {"focus_distance": 4, "aperture_fstop": 0.1}),
-        pytest.param(
-            "PERSP",
-            {"focus_distance": 3, "aperture_fstop": 0.1, "aperture_blades": 3},
-            marks=pytest.mark.xfail(reason="1.3 % brighter than in Cycles", strict=True),
-        ),
+        ("PERSP", {"focus_distance": 3, "aperture_fstop": 0.1, "aperture_blades": 3}),
         (
             "PERSP",
             {
@@ -128,11 +124,7 @@ def blurred_lights(kind: str, **dof: Any) -> Any:
                 "aperture_ratio": 2,
             },
         ),
-        pytest.param(
-            "ORTHO",
-            {"focus_distance": 5, "aperture_fstop": 2, "aperture_blades": 4},
-            marks=pytest.mark.xfail(reason="0.9 % brighter than in Cycles", strict=True),
-        ),
+        ("ORTHO", {"focus_distance": 5, "aperture_fstop": 2, "aperture_blades": 4}),
         ("PANO", {"focus_distance": 3, "aperture_fstop": 0.1}),
     ],
 )
@@ -140,7 +132,7 @@ def test_blur_is_as_in_cycles(kind: str, dof: dict[str, Any], tmp_path: Path) ->
     scene = blurred_lights(kind, **dof)
     pictures = {}
     for engine in ("BASICRT", "CYCLES"):
-        use_engine(scene, engine, 512, 1.0)
+        use_engine(scene, engine, 1024, 1.0)
         seeds = []
         for seed in range(4):
             scene.basicrt.seed = scene.cycles.seed = seed
@@ -159,4 +151,6 @@ def test_blur_is_as_in_cycles(kind: str, dof: dict[str, Any], tmp_path: Path) ->
     worst = np.abs(blocks(difference)) / (5 * error + 0.01 * mean)
     print(f"{kind} {dof}: whole picture {difference.mean() / mean:+.3%}, worst {worst.max():.2f}")
     assert worst.max() < 1
-    assert abs(difference.mean()) < 0.005 * mean
+    # Few samples meet the bright squares: the seeds' own scatter can be more than half a percent.
+    scatter = sum(p.mean(axis=(1, 2, 3)).var(ddof=1) for p in (ours, theirs))
+    assert abs(difference.mean()) < 0.003 * mean + 4 * np.sqrt(scatter / 4)

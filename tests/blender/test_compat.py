@@ -122,6 +122,19 @@ def test_lamp_strength_takes_what_the_version_has() -> None:
         assert not compat.is_light_normalized(light)
 
 
+def test_shadow_terminator_offsets_are_where_the_version_has_them() -> None:
+    made: Any = bpy.data.objects.new("Name", bpy.data.meshes.new("Name"))
+    assert compat.shadow_terminator_offset(made) == pytest.approx(0.1)
+    assert compat.shadow_terminator_shading_offset(made) == 0
+    if bpy.app.version >= (4, 3, 0):
+        made.shadow_terminator_geometry_offset, made.shadow_terminator_shading_offset = 0.2, 0.5
+    else:
+        made.cycles.shadow_terminator_geometry_offset = 0.2
+        made.cycles.shadow_terminator_offset = 0.5
+    assert compat.shadow_terminator_offset(made) == pytest.approx(0.2)
+    assert compat.shadow_terminator_shading_offset(made) == 0.5
+
+
 def test_view_layer_may_override_the_world() -> None:
     scene, view_layer = bpy.context.scene, bpy.context.view_layer
     scene.world = bpy.data.worlds.new("Scene's")

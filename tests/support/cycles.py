@@ -29,12 +29,17 @@ def both(scene: Any, folder: Path) -> tuple[np.ndarray, np.ndarray]:
     pictures = []
     for engine in ("BASICRT", "CYCLES"):
         scene.render.engine = engine
-        stack = []
-        for seed in range(SEEDS):
-            scene.cycles.seed = seed
-            stack.append(render(folder).astype(float))
-        pictures.append(np.array(stack))
+        pictures.append(pictures_of(scene, folder))
     return pictures[0], pictures[1]
+
+
+def pictures_of(scene: Any, folder: Path) -> np.ndarray:
+    """One for each seed: (seeds, height, width, 4)."""
+    stack = []
+    for seed in range(SEEDS):
+        scene.cycles.seed = seed
+        stack.append(render(folder).astype(float))
+    return np.array(stack)
 
 
 def expect_alike(ours: np.ndarray, theirs: np.ndarray, relative: float, cells: int = 4) -> None:

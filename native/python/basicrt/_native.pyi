@@ -3202,6 +3202,7 @@ class Instance:
     holdout: a hole in the picture, for camera rays
     shadow_catcher: the camera sees through it, darkened by the shadows of what is none
     shadow_terminator_offset: cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
+    shadow_terminator_shading_offset: how much light is dimmed that grazes the object; in [0, 1]
     """
     def __init__(
         self,
@@ -3214,6 +3215,7 @@ class Instance:
         holdout: bool = False,
         shadow_catcher: bool = False,
         shadow_terminator_offset: float = 0.0,
+        shadow_terminator_shading_offset: float = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -3260,6 +3262,13 @@ class Instance:
         """
     @shadow_terminator_offset.setter
     def shadow_terminator_offset(self, value: float) -> None: ...
+    @property
+    def shadow_terminator_shading_offset(self) -> float:
+        """
+        how much light is dimmed that grazes the object; in [0, 1]
+        """
+    @shadow_terminator_shading_offset.setter
+    def shadow_terminator_shading_offset(self, value: float) -> None: ...
     @property
     def shape(self) -> int | None:
         """

@@ -49,12 +49,13 @@ TileAccumulator::Mean TileAccumulator::mean(std::size_t index) const {
           p.normal + (p.normal - n.normal) * negative_mass_};
 }
 
-// What is behind catchers is darkened by the share of their light that is left.
+// What is behind catchers is darkened by the share of their light that is left, in the mean of the channels: what one of
+// them gains from coloured objects makes up for what another loses.
 void TileAccumulator::add_behind_catchers(Mean& mean, std::size_t index) const {
   const CatcherSample& sums = catchers_[index];
   float share = 0;
-  for (int i = 0; i < 3; ++i) share += sums.unlit[i] > 0 ? std::min(sums.lit[i] / sums.unlit[i], 1.0f) / 3 : 1.0f / 3;
-  const float scale = share / static_cast<float>(std::max(pixels_[index].positive.count, 1));
+  for (int i = 0; i < 3; ++i) share += sums.unlit[i] > 0 ? sums.lit[i] / sums.unlit[i] / 3 : 1.0f / 3;
+  const float scale = std::min(share, 1.0f) / static_cast<float>(std::max(pixels_[index].positive.count, 1));
   mean.radiance += sums.behind * scale;
   mean.alpha -= sums.hole * scale;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/mesh.h"
 #include "geometry/placement.h"
@@ -18,6 +19,15 @@ namespace basicrt {
   const float cosine = dot(point.shading_normal, wi), facet_cosine = dot(point.geometric_normal, wi);
   const float sum = std::min(std::abs(cosine), cutoff) + (cosine < 0 ? -facet_cosine : facet_cosine);
   return std::clamp(2 - sum / cutoff, 0.0f, 1.0f);
+}
+
+// The share of reflected light that Blender's shading offset, in [0, 1], leaves: light from an angle is reflected as if
+// it came from a wider one, so that it ends before facets shade each other.
+[[nodiscard]] inline float offset_share(const SurfacePoint& point, Vec3f wi, float shading_offset) {
+  const float cosine = dot(point.is_backfacing ? -point.shading_normal : point.shading_normal, wi);
+  if (!(cosine > 0)) return 1;
+  const float widening = 1 / (1 - shading_offset / 2);
+  return std::max(std::cos(std::acos(std::min(cosine, 1.0f)) * widening), 0.0f) / cosine;
 }
 
 // From a point of a mesh's facet to the smooth surface above it, on the side of `wi`; zero where the surface bends away

@@ -194,7 +194,8 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
   const std::optional<LightSample> light =
       scene_.lights.sample({point.position, bsdf.lit_side(-ray.direction)}, choice, path.sampler.next_2d(), ray.time);
   if (!light || path.bounces.total > light->max_bounces) return;
-  const BsdfValue reflected = eval_towards(*light, point, -ray.direction, bsdf);
+  BsdfValue reflected = eval_towards(*light, point, -ray.direction, bsdf);
+  reflected.value *= terminator_share(point, light->wi);
   const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, reflected.pdf);
   Color radiance = path.throughput * reflected.value * light->radiance * (weight / light->pdf);
   if (is_black(radiance) || !survives_light_roulette(path, radiance)) return;
@@ -211,6 +212,12 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
     if (is_crossed(point, -ray.direction, light->wi)) cross_surface(shadow_media_.back(), point);
   }
   connections_.push_back({path.sample, radiance, path.bounces.transparent, most, path.destination});
+}
+
+// What the object's shading offset leaves of light that is reflected from a direction.
+float PathIntegrator::terminator_share(const SurfacePoint& point, Vec3f wi) const {
+  const float offset = scene_.instances[point.instance].shadow_terminator_shading_offset;
+  return offset > 0 ? offset_share(point, wi, offset) : 1;
 }
 
 // What the surface scatters of the light, of the kinds that the lamp lights.
@@ -252,7 +259,7 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
   const std::optional<BsdfSample> scattered = bsdf.sample(-ray.direction, choice, path.sampler.next_2d());
   const bool is_passed = scattered && scattered->kind == ScatterKind::transparent && !path.ends_at_panes;
   if (!scattered || (path.is_last && !is_passed)) return false;
-  path.throughput *= scattered->weight;
+  path.throughput *= scattered->weight * terminator_share(point, scattered->wi);
   if (is_black(path.throughput)) return false;
   count_bounce(path, scattered->kind);
 

@@ -68,6 +68,7 @@ class PathIntegrator final : public Integrator {
   void cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, SurfaceShading& shading,
                PixelSample& sample) const;
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
+  [[nodiscard]] float terminator_share(const SurfacePoint& point, Vec3f wi) const;
   [[nodiscard]] BsdfValue eval_towards(const LightSample& light, const SurfacePoint& point, Vec3f wo,
                                        const Bsdf& bsdf) const;
   void pass_catcher(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf,

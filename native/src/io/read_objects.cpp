@@ -11,10 +11,19 @@ namespace basicrt {
 namespace {
 
 // "shape", then what every object may have.
-constexpr std::array<std::string_view, 12> shape_object_keys = {
-    "shape",      "name",      "material_name",     "materials",
-    "transform",  "translate", "motion_transforms", "light",
-    "visibility", "holdout",   "shadow_catcher",    "shadow_terminator_offset"};
+constexpr std::array<std::string_view, 13> shape_object_keys = {"shape",
+                                                                "name",
+                                                                "material_name",
+                                                                "materials",
+                                                                "transform",
+                                                                "translate",
+                                                                "motion_transforms",
+                                                                "light",
+                                                                "visibility",
+                                                                "holdout",
+                                                                "shadow_catcher",
+                                                                "shadow_terminator_offset",
+                                                                "shadow_terminator_shading_offset"};
 constexpr auto object_keys = std::span(shape_object_keys).subspan(1);
 
 Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
@@ -97,6 +106,7 @@ void read_object(SceneReader& reader, const JsonValue& object) {
   read_optional(object, "holdout", instance.is_holdout);
   read_optional(object, "shadow_catcher", instance.is_shadow_catcher);
   read_optional(object, "shadow_terminator_offset", instance.shadow_terminator_offset);
+  read_optional(object, "shadow_terminator_shading_offset", instance.shadow_terminator_shading_offset);
   if (const auto light = object.find("light")) read_area_light(reader, *light, instance.materials);
   if (is_empty(reader.scene.shapes[instance.shape]))
     object.warn(reader.report, "skipped: the mesh has no triangles");

@@ -161,6 +161,8 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
   if (instance.is_shadow_catcher) json["shadow_catcher"] = true;
   if (instance.shadow_terminator_offset != 0)
     json["shadow_terminator_offset"] = write(instance.shadow_terminator_offset);
+  if (instance.shadow_terminator_shading_offset != 0)
+    json["shadow_terminator_shading_offset"] = write(instance.shadow_terminator_shading_offset);
   return json;
 }
 

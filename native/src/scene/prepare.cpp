@@ -203,7 +203,8 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
                                   .materials = resolve_materials(instance, default_index),
                                   .is_holdout = instance.is_holdout,
                                   .is_shadow_catcher = instance.is_shadow_catcher,
-                                  .shadow_terminator_offset = shadow_terminator_offset(scene, instance)});
+                                  .shadow_terminator_offset = shadow_terminator_offset(scene, instance),
+                                  .shadow_terminator_shading_offset = instance.shadow_terminator_shading_offset});
     PreparedScene::PreparedInstance& added = prepared.instances.back();
     for (const std::uint32_t material : added.materials)
       added.needs_derivatives = added.needs_derivatives || needs_derivatives(prepared.materials[material].material);

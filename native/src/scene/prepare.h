@@ -27,7 +27,7 @@ struct PreparedScene {
     bool needs_derivatives = false;        // one of the materials does
     bool is_holdout = false;
     bool is_shadow_catcher = false;
-    float shadow_terminator_offset = 0;
+    float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
   };
 
   CameraView view;             // of a camera that stands still

@@ -28,9 +28,10 @@ struct Instance {
   // Object to world at further times: equally spaced, `object_to_world` being of time 0, the last of time 1. Between
   // two of them matrices are linear.
   std::vector<Transform> motion_transforms;
-  bool is_holdout = false;             // a hole in the picture, for camera rays
-  bool is_shadow_catcher = false;      // the camera sees through it, to where it darkens by others' shadows
-  float shadow_terminator_offset = 0;  // see shadow_terminator.h, in [0, 1]
+  bool is_holdout = false;         // a hole in the picture, for camera rays
+  bool is_shadow_catcher = false;  // the camera sees through it, to where it darkens by others' shadows
+  // See shadow_terminator.h, both in [0, 1].
+  float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
 };
 
 struct Scene {

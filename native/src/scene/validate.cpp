@@ -149,6 +149,7 @@ void validate_instances(const Scene& scene) {
         validate_id(id, scene.materials, item + "." + entry("materials", slot), "materials");
     const Bounds3f& local = shape_bounds[instance.shape.index];
     validate_field(instance.shadow_terminator_offset, within(0, 1), item, "shadow_terminator_offset");
+    validate_field(instance.shadow_terminator_shading_offset, within(0, 1), item, "shadow_terminator_shading_offset");
     validate_transform(instance.object_to_world, item + ".transform");
     validate_reach(transform_bounds(instance.object_to_world, local), item);
     for (std::size_t key = 0; key < instance.motion_transforms.size(); ++key) {

@@ -257,5 +257,15 @@ TEST(ShadowTerminator, what_looks_away_stays_dark_and_what_looks_there_as_it_was
   EXPECT_EQ(render_mean(on).radiance, render_mean(off).radiance);
 }
 
+TEST(ShadowTerminator, a_shading_offset_widens_the_light_s_angle) {
+  const float degree = pi / 180;
+  Scene scene = lit_prism(64, 30 * degree, 40 * degree, 0);
+  Instance dimmed = scene.instances[0];
+  dimmed.shadow_terminator_shading_offset = 0.5f;
+  scene.instances.set(Id<Instance>{0}, dimmed);
+  const float widened = 40 * degree / 0.75f;
+  EXPECT_NEAR(render_mean(scene).radiance.x, std::cos(widened) / pi, 0.02f * std::cos(widened) / pi);
+}
+
 }  // namespace
 }  // namespace basicrt
