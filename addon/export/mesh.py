@@ -73,6 +73,7 @@ def deforming(still: basicrt.Mesh, moments: Sequence[Moment]) -> basicrt.Mesh | 
         corner_normals=normals[0] if normals else None,
         uvs=still.uvs,
         material_slots=still.material_slots,
+        texture_space=still.texture_space,
         motion_positions=np.stack([moment.positions for moment in moments[1:]]),
         motion_corner_normals=np.stack(normals[1:]) if normals else None,
     )
@@ -105,7 +106,14 @@ def convert(b_mesh: bpy.types.Mesh) -> basicrt.Mesh | None:
         corner_normals=_corner_normals(b_mesh, corners),
         uvs=_uvs(b_mesh, corners),
         material_slots=_material_slots(b_mesh),
+        texture_space=_texture_space(b_mesh),
     )
+
+
+def _texture_space(b_mesh: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Where generated coordinates are 0, and how far from there they are 1."""
+    location, size = b_mesh.texspace_location, b_mesh.texspace_size
+    return tuple(location - size), tuple(2.0 * size)
 
 
 def _corners(b_mesh: bpy.types.Mesh) -> Integers:

@@ -16,6 +16,8 @@ from .. import compat
 from ..report import Report
 from .graph import Groups, Place, find_socket, trace
 from .images import Textures
+from .operations import OPERATIONS, Value, as_vector, output_value, value_at
+from .operations import as_number as number_of
 
 Color = tuple[float, float, float]
 NodeIndex = int | None
@@ -75,6 +77,8 @@ class Translation:
     uv_maps: set[str] = field(default_factory=set)
     # Nodes that are done: one node may feed several others.
     done: dict[tuple[int, ...], NodeIndex] = field(default_factory=dict)
+    # The same for the outputs of value nodes.
+    values: dict[tuple[Any, ...], Value | None] = field(default_factory=dict)
 
     def warn(self, message: str) -> None:
         """Tell of something that is not as in Blender."""
@@ -99,9 +103,12 @@ class Translation:
             return view.add(
                 basicrt.EmissionShader(radiance=positive(as_color(view.output_value())))
             )
-        if view.bl_idname in TEXTURES and not self.is_volume:
+        if view.bl_idname in TEXTURES and not self.is_volume and is_over_uv(view):
             reference = basicrt.TextureRef(TEXTURES[view.bl_idname](view))
             return view.add(basicrt.EmissionShader(radiance=reference))
+        if view.bl_idname in OPERATIONS and not self.is_volume:
+            value = value_at(view, place)
+            return view.add(basicrt.EmissionShader(radiance=as_vector(value)))
         if self.is_volume:
             self.warn(f"{view.title} is not supported in a volume and left out")
             return None
@@ -151,14 +158,31 @@ class NodeView:
         """The three numbers of an input."""
         return as_color(self._value(identifier))
 
-    def share(self, identifier: str) -> float | basicrt.TextureRef:
+    def share(self, identifier: str) -> float | basicrt.TextureRef | basicrt.OperationRef:
         """A number in [0, 1] that may vary."""
-        reference = self._texture_at(identifier, is_share=True)
-        return self.number(identifier, 0, 1) if reference is None else reference
+        return self.varying_number(identifier, 0.0, 1.0)
 
-    def color(self, identifier: str) -> Color | basicrt.TextureRef:
+    def varying_number(
+        self, identifier: str, lowest: float = 0.0, highest: float = math.inf
+    ) -> float | basicrt.TextureRef | basicrt.OperationRef:
+        """number(), or what varies."""
+        reference = self._varying_at(identifier, is_share=True)
+        return self.number(identifier, lowest, highest) if reference is None else reference
+
+    def normal(self, identifier: str = "Normal") -> Color | basicrt.OperationRef:
+        """A normal in world space; zero where nothing is linked."""
+        socket = find_socket(self.node.inputs, identifier)
+        if socket is None or not trace(Place(socket, self.groups)).socket.is_output:
+            return (0.0, 0.0, 0.0)
+        found: Any = self._varying_at(identifier)
+        if found is None:
+            self.ignore(**{identifier: None})
+            return (0.0, 0.0, 0.0)
+        return found
+
+    def color(self, identifier: str) -> Color | basicrt.TextureRef | basicrt.OperationRef:
         """A colour that reflects or lets through: each channel in [0, 1]."""
-        reference = self._texture_at(identifier)
+        reference = self._varying_at(identifier)
         if reference is not None:
             return reference
         color = as_color(self._value(identifier))
@@ -170,12 +194,19 @@ class NodeView:
         """A colour that shines: at least 0."""
         return positive(as_color(self._value(identifier)))
 
-    def radiance(self, color: str, strength: str) -> tuple[Color | basicrt.TextureRef, float]:
-        """A colour that shines and may vary, and what multiplies it: 1 where the colour is constant."""
-        factor = self.number(strength)
-        reference = self._texture_at(color)
+    def radiance(
+        self, color: str, strength: str
+    ) -> tuple[
+        Color | basicrt.TextureRef | basicrt.OperationRef,
+        float | basicrt.TextureRef | basicrt.OperationRef,
+    ]:
+        """A colour that shines and may vary, and what multiplies it: 1 where both are constant."""
+        factor = self.varying_number(strength)
+        reference = self._varying_at(color)
         if reference is not None:
             return reference, factor
+        if not isinstance(factor, float):
+            return self.light(color), factor
         return scaled(self.light(color), factor), 1.0
 
     def shader(self, identifier: str) -> NodeIndex:
@@ -198,6 +229,26 @@ class NodeView:
             if source.is_output or (harmless is not None and _raw_value(source) != harmless):
                 self.warn(f"{identifier} is not supported and left out")
 
+    def _varying_at(
+        self, identifier: str, is_share: bool = False
+    ) -> basicrt.TextureRef | basicrt.OperationRef | None:
+        """What varies and is linked to an input, None where nothing is or may be."""
+        texture = self._texture_at(identifier, is_share)
+        if texture is not None or self.translation.is_volume:
+            return texture
+        socket = find_socket(self.node.inputs, identifier)
+        source = trace(Place(socket, self.groups)) if socket else None
+        node: Any = source.socket.node if source and source.socket.is_output else None
+        if source is None or node is None or node.bl_idname in VALUES:
+            return None
+        if node.bl_idname not in OPERATIONS:
+            return None
+        value = output_value(self.translation, source)
+        if value is None:
+            return None
+        data = number_of(self.translation, value) if is_share else as_vector(value)
+        return data if isinstance(data, basicrt.OperationRef) else None
+
     def _texture_at(self, identifier: str, is_share: bool = False) -> basicrt.TextureRef | None:
         """The texture that is linked to an input, None where none is or may be."""
         if self.translation.is_volume:
@@ -211,6 +262,8 @@ class NodeView:
         if is_alpha and not is_share:
             return None
         view = NodeView(node, source.groups, self.translation)
+        if not is_over_uv(view):
+            return None
         return basicrt.TextureRef(TEXTURES[node.bl_idname](view), alpha=is_alpha)
 
     def _value(self, identifier: str) -> float | Color:
@@ -228,6 +281,27 @@ class NodeView:
             f'{identifier} is linked to "{compat.node_name(node)}", which is not supported: its own value is used'
         )
         return _raw_value(socket)
+
+
+def is_over_uv(view: NodeView) -> bool:
+    """Whether a texture is looked up by uv coordinates, moved by constants at most."""
+    node: Any = view.node
+    if getattr(node, "projection", "FLAT") != "FLAT":
+        return False
+    socket = find_socket(node.inputs, "Vector")
+    source = trace(Place(socket, view.groups)) if socket else None
+    if source is None or not source.socket.is_output:
+        return True
+    origin = NodeView(source.socket.node, source.groups, view.translation)  # type: ignore[arg-type]
+    if origin.bl_idname == "ShaderNodeUVMap":
+        return True
+    if origin.bl_idname == "ShaderNodeTexCoord":
+        return source.socket.identifier == "UV"
+    if origin.bl_idname != "ShaderNodeMapping" or origin.node.vector_type == "NORMAL":  # type: ignore[attr-defined]
+        return False
+    moves = (find_socket(origin.node.inputs, name) for name in ("Location", "Rotation", "Scale"))
+    is_constant = not any(trace(Place(s, origin.groups)).socket.is_output for s in moves if s)
+    return is_constant and is_over_uv(origin)
 
 
 def _raw_value(socket: Any) -> float | Color:

@@ -18,7 +18,8 @@ def _distribution(view: NodeView) -> str:
     name = str(node.distribution).lower()
     if name in ("multi_ggx", "ggx", "beckmann"):
         return name
-    if view.number("Roughness") > 0.0:
+    roughness = view.share("Roughness")
+    if not isinstance(roughness, float) or roughness > 0.0:
         view.warn(f"distribution {node.distribution} is drawn as GGX")
     return "ggx"
 
@@ -26,19 +27,22 @@ def _distribution(view: NodeView) -> str:
 @shader("ShaderNodeBsdfDiffuse")
 def diffuse(view: NodeView) -> NodeIndex:
     """Lambert's, both sides."""
-    view.ignore(Roughness=0.0, Normal=None)
-    return view.add(basicrt.DiffuseShader(color=view.color("Color"), twosided=True))
+    view.ignore(Roughness=0.0)
+    return view.add(
+        basicrt.DiffuseShader(color=view.color("Color"), twosided=True, normal=view.normal())
+    )
 
 
 @shader("ShaderNodeBsdfAnisotropic")  # the Glossy BSDF's name inside Blender
 def glossy(view: NodeView) -> NodeIndex:
     """A tinted mirror, rough by microfacets."""
-    view.ignore(Anisotropy=0.0, Normal=None)
+    view.ignore(Anisotropy=0.0)
     return view.add(
         basicrt.GlossyShader(
             color=view.color("Color"),
-            roughness=view.number("Roughness", 0, 1),
+            roughness=view.share("Roughness"),
             distribution=_distribution(view),
+            normal=view.normal(),
         )
     )
 
@@ -46,15 +50,16 @@ def glossy(view: NodeView) -> NodeIndex:
 @shader("ShaderNodeBsdfGlass")
 def glass(view: NodeView) -> NodeIndex:
     """Fresnel reflection and refraction, both tinted."""
-    view.ignore(Normal=None, Thin_Film_Thickness=0.0)
+    view.ignore(Thin_Film_Thickness=0.0)
     color = view.color("Color")
     return view.add(
         basicrt.GlassShader(
             R=color,
             T=color,
-            eta=view.number("IOR", 1e-5),
-            roughness=view.number("Roughness", 0, 1),
+            eta=view.varying_number("IOR", 1e-5),
+            roughness=view.share("Roughness"),
             distribution=_distribution(view),
+            normal=view.normal(),
         )
     )
 
@@ -62,13 +67,13 @@ def glass(view: NodeView) -> NodeIndex:
 @shader("ShaderNodeBsdfRefraction")
 def refraction(view: NodeView) -> NodeIndex:
     """Refraction alone: what would be reflected past the critical angle is lost."""
-    view.ignore(Normal=None)
     return view.add(
         basicrt.RefractionShader(
             color=view.color("Color"),
-            eta=view.number("IOR", 1e-5),
-            roughness=view.number("Roughness", 0, 1),
+            eta=view.varying_number("IOR", 1e-5),
+            roughness=view.share("Roughness"),
             distribution=_distribution(view),
+            normal=view.normal(),
             total_reflection=False,
         )
     )
@@ -119,24 +124,25 @@ def principled(view: NodeView) -> NodeIndex:
         Specular_Tint=WHITE,
         Thin_Film_Thickness=0.0,
         Thin_Wall=0.0,
-        Normal=None,
     )
     emission, emission_strength = view.radiance("Emission Color", "Emission Strength")
-    ior = view.number("IOR")
-    if ior < 1.0:
+    ior = view.varying_number("IOR")
+    if isinstance(ior, float) and ior < 1.0:
         view.warn("an IOR below 1 is drawn as 1")
+        ior = 1.0
     return view.add(
         basicrt.PrincipledShader(
             base_color=view.color("Base Color"),
-            metallic=view.number("Metallic", 0, 1),
-            roughness=view.number("Roughness", 0, 1),
-            ior=max(ior, 1.0),
-            transmission=view.number("Transmission Weight", 0, 1),
-            specular_ior_level=view.number("Specular IOR Level", 0, 1),
+            metallic=view.share("Metallic"),
+            roughness=view.share("Roughness"),
+            ior=ior,
+            transmission=view.share("Transmission Weight"),
+            specular_ior_level=view.share("Specular IOR Level"),
             emission=emission,
             emission_strength=emission_strength,
             alpha=view.share("Alpha"),
             distribution=_distribution(view),
+            normal=view.normal(),
         )
     )
 

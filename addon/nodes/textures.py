@@ -9,9 +9,11 @@ import numpy as np
 
 import basicrt
 
+from .coordinate_nodes import texture_vector
 from .coordinates import Coordinates, coordinates_at
-from .images import MISSING
+from .images import MISSING, ConvertedImage
 from .node_view import NodeView, texture
+from .operations import Operands, Value, operation
 
 INTERPOLATIONS = {"Linear": "linear", "Closest": "closest", "Cubic": "cubic", "Smart": "cubic"}
 _EXTENSIONS = {"REPEAT": "repeat", "EXTEND": "extend", "CLIP": "clip", "MIRROR": "mirror"}
@@ -27,7 +29,13 @@ def image_texture(view: NodeView) -> int:
     converted = store.image(node.image, view.warn)
     if converted is None:
         return store.add("missing", lambda: basicrt.ConstantTexture(color=MISSING))
-    matrix = _uv_transform(view)
+    return _image_texture(view, converted, _uv_transform(view))
+
+
+def _image_texture(view: NodeView, converted: ConvertedImage, matrix: np.ndarray) -> int:
+    """The texture of an image that has been converted."""
+    node: Any = view.node
+    store = view.translation.textures
     values: dict[str, Any] = {
         "interpolation": INTERPOLATIONS[node.interpolation],
         "extension": _EXTENSIONS[node.extension],
@@ -47,3 +55,19 @@ def _uv_transform(view: NodeView) -> np.ndarray:
     if coordinates.uv_map:
         view.translation.uv_maps.add(coordinates.uv_map)
     return np.asarray(coordinates.matrix, np.float32)
+
+
+@operation("ShaderNodeTexImage")
+def image_lookup(of: Operands, output: str) -> Value:
+    """A picture over any coordinates."""
+    if of.node.projection != "FLAT":
+        of.view.warn(f"projection {of.node.projection} is not supported: drawn flat")
+    store = of.view.translation.textures
+    converted = store.image(of.node.image, of.view.warn)
+    if converted is None:
+        return Value("color", MISSING) if output == "Color" else Value("number", 1.0)
+    texture = _image_texture(of.view, converted, np.eye(4, dtype=np.float32))
+    made = basicrt.TextureOperation(
+        texture=texture, vector=texture_vector(of, "uv"), alpha=output == "Alpha"
+    )
+    return of.add("color" if output == "Color" else "number", made)

@@ -11,12 +11,15 @@ import basicrt
 
 from .. import compat
 from ..report import Report
-from . import shaders, textures, values, volumes
+from . import coordinate_nodes, math_nodes, pattern_nodes, shaders, textures, values, volumes
 from .graph import Place, find_socket, trace
 from .images import Textures
 from .node_view import Color, NodeView, Translation, scaled, unit
 
 # Imported to fill the tables of functions.
+assert coordinate_nodes
+assert math_nodes
+assert pattern_nodes
 assert shaders
 assert textures
 assert values
@@ -51,6 +54,7 @@ def translate_surface(
     Its textures are added to `store`.
     """
     material = basicrt.Material(name=b_material.name)
+    material.pass_index = float(b_material.pass_index)
     with compat.inlined_nodes(b_material) as tree:
         if tree is None:
             red, green, blue, _alpha = b_material.diffuse_color

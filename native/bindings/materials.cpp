@@ -29,7 +29,7 @@ void register_materials(py::module_& m) {
   bind_described<TransparentShader>(m, "TransparentShader", "Light passes straight through, tinted.");
   bind_described<EmissionShader>(m, "EmissionShader", "A surface that shines.");
   bind_described<HoldoutShader>(m, "HoldoutShader", "A hole in the picture for what the camera sees.");
-  bind_described<PrincipledShader>(m, "PrincipledShader", "Blender's Principled BSDF with constant values.");
+  bind_described<PrincipledShader>(m, "PrincipledShader", "Blender's Principled BSDF.");
   bind_described<VolumeShader>(m, "VolumeShader", "What fills a shape, by its coefficients.");
   bind_described<MixShader>(m, "MixShader", "A blend of two nodes; None is black and opaque.");
   bind_described<AddShader>(m, "AddShader", "The sum of two nodes; None is black and opaque.");
@@ -38,7 +38,11 @@ void register_materials(py::module_& m) {
       .def(py::init([](std::string name) { return Material{.name = std::move(name), .nodes = {}}; }),
            py::arg("name") = "")
       .def_readwrite("name", &Material::name)
-      .def("add", &Material::add, py::arg("node"), "Appends a node and returns its index.")
+      .def_readwrite("pass_index", &Material::pass_index)
+      .def("add", py::overload_cast<ShaderNode>(&Material::add), py::arg("node"),
+           "Appends a node and returns its index.")
+      .def("add_operation", py::overload_cast<Operation>(&Material::add), py::arg("operation"),
+           "Appends an operation, which refers only to those before it, and returns what stands for its value.")
       .def_property("surface", root_getter(&Material::surface), root_setter(&Material::surface),
                     "The index of the node that the surface shows; None is black and opaque, or, with a volume, "
                     "nothing but the volume's boundary.")
@@ -47,6 +51,8 @@ void register_materials(py::module_& m) {
                     "added. None is empty space.")
       .def_property_readonly(
           "nodes", [](const Material& self) { return self.nodes; }, "Copies of the nodes.")
+      .def_property_readonly(
+          "operations", [](const Material& self) { return self.operations; }, "Copies of the operations.")
       .def("__repr__", [](const Material& self) {
         return "<Material \"" + self.name + "\" of " + std::to_string(self.nodes.size()) + " nodes>";
       });

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_native, m) {
   register_errors(m);
   register_shapes(m);
   register_textures(m);
+  register_operations(m);
   register_materials(m);
   register_lights(m);
   register_cameras(m);

@@ -9,6 +9,7 @@ namespace basicrt::bindings {
 void register_errors(pybind11::module_& m);
 void register_shapes(pybind11::module_& m);
 void register_textures(pybind11::module_& m);
+void register_operations(pybind11::module_& m);
 void register_materials(pybind11::module_& m);
 void register_lights(pybind11::module_& m);
 void register_cameras(pybind11::module_& m);

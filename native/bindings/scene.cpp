@@ -51,6 +51,18 @@ template <class T>
 auto table_getter(Table<T> Scene::* table) {
   return py::cpp_function([table](BoundScene& self) { return TableView<T>{&self, table}; }, py::keep_alive<0, 1>());
 }
+template <class Value>
+Attribute<Instance> info_attribute(const char* name, const char* doc, Value ObjectInfo::* member) {
+  using Python = PythonValue<Value>;
+  return {name,
+          doc,
+          Python::accepts,
+          Python::returns,
+          [member](const Instance& self) { return Python::write(self.info.*member); },
+          [member](Instance& self, py::handle value, const std::string& item) {
+            self.info.*member = Python::read(value, item);
+          }};
+}
 
 void bind_instance(py::module_& m) {
   std::vector<Attribute<Instance>> attributes = {
@@ -73,6 +85,9 @@ void bind_instance(py::module_& m) {
       make_attribute(field("holdout", &Instance::is_holdout, "a hole in the picture, for camera rays")),
       make_attribute(field("shadow_catcher", &Instance::is_shadow_catcher,
                            "the camera sees through it, darkened by the shadows of what is none")),
+      info_attribute("color", "for materials that ask", &ObjectInfo::color),
+      info_attribute("pass_index", "for materials that ask", &ObjectInfo::pass_index),
+      info_attribute("random", "in [0, 1], for materials that ask", &ObjectInfo::random),
       make_attribute(field("shadow_terminator_offset", &Instance::shadow_terminator_offset,
                            "cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not "
                            "the facets",

@@ -35,10 +35,14 @@ std::vector<std::vector<Vec3f>> to_keys(const py::array_t<float>& array) {
   return keys;
 }
 
+// Its name, its domain and its values.
+using NamedArray = std::tuple<std::string, std::string, ArrayLike>;
+
 Mesh make_mesh(const ArrayLike& positions, const ArrayLike& triangles, const std::optional<ArrayLike>& corner_normals,
                const std::optional<ArrayLike>& uvs, const std::optional<ArrayLike>& material_slots,
-               const std::optional<ArrayLike>& motion_positions,
-               const std::optional<ArrayLike>& motion_corner_normals) {
+               const std::optional<ArrayLike>& motion_positions, const std::optional<ArrayLike>& motion_corner_normals,
+               const std::vector<NamedArray>& attributes,
+               const std::optional<std::array<std::array<float, 3>, 2>>& texture_space) {
   Mesh mesh;
   mesh.positions = to_vector<Vec3f>(float_array(positions, "positions", {{any_length, 3}}));
   mesh.triangles = to_vector<std::array<std::uint32_t, 3>>(index_array(triangles, "triangles", {{any_length, 3}}));
@@ -56,6 +60,14 @@ Mesh make_mesh(const ArrayLike& positions, const ArrayLike& triangles, const std
   if (motion_corner_normals)
     mesh.motion_corner_normals = to_keys(float_array(*motion_corner_normals, "motion_corner_normals",
                                                      {{any_length, count, 3, 3}, {any_length, 3 * count, 3}}));
+  for (const auto& [name, domain, values] : attributes)
+    mesh.attributes.push_back({name, PythonValue<AttributeDomain>::read(py::str(domain), "Mesh.attributes"),
+                               to_vector<Vec3f>(float_array(values, "attributes", {{any_length, 3}}))});
+  if (texture_space) {
+    const auto& [least, size] = *texture_space;
+    mesh.texture_space_min = {least[0], least[1], least[2]};
+    mesh.texture_space_size = {size[0], size[1], size[2]};
+  }
   validate(mesh, "Mesh");
   return mesh;
 }
@@ -86,11 +98,14 @@ positions (V, 3) float32, metres; triangles (T, 3) uint32, counter-clockwise see
 material_slots (T,) uint32, without them every triangle has slot 0. A mesh that deforms has motion_positions
 (K, V, 3) float32 and, where it has corner_normals, motion_corner_normals (K, T, 3, 3) or (K, 3T, 3) float32: those at K
 further times, equally spaced; the others are when the shutter opens, the last of these when it closes, and all is
-linear between them. Other real (or integer) types are converted.
+linear between them. attributes are (name, domain, values): domain "vertex", "corner" or "face", values (N, 3) float32 for
+each vertex, each corner of the triangles or each triangle. texture_space is where generated coordinates are 0, and how
+far from there they are 1. Other real (or integer) types are converted.
 Raises SceneError naming the array, the rule and the value.)")
       .def(py::init(&make_mesh), py::arg("positions"), py::arg("triangles"), py::kw_only(),
            py::arg("corner_normals") = py::none(), py::arg("uvs") = py::none(), py::arg("material_slots") = py::none(),
-           py::arg("motion_positions") = py::none(), py::arg("motion_corner_normals") = py::none())
+           py::arg("motion_positions") = py::none(), py::arg("motion_corner_normals") = py::none(),
+           py::arg("attributes") = std::vector<NamedArray>{}, py::arg("texture_space") = py::none())
       .def_property_readonly(
           "positions",
           [](const py::object& self) {
@@ -136,6 +151,21 @@ Raises SceneError naming the array, the rule and the value.)")
             return key_views(mesh.motion_corner_normals, {static_cast<py::ssize_t>(mesh.triangles.size()), 3, 3}, self);
           },
           "(T, 3, 3) float32 for each further time; none where it doesn't deform or is flat")
+      .def_property_readonly(
+          "texture_space",
+          [](const Mesh& self) {
+            const auto numbers = [](Vec3f v) { return std::array<float, 3>{v.x, v.y, v.z}; };
+            return std::array{numbers(self.texture_space_min), numbers(self.texture_space_size)};
+          },
+          "where generated coordinates are 0, and how far from there they are 1")
+      .def_property_readonly(
+          "attribute_names",
+          [](const Mesh& self) {
+            std::vector<std::string> names;
+            for (const MeshAttribute& attribute : self.attributes) names.push_back(attribute.name);
+            return names;
+          },
+          "of the attributes")
       .def("__repr__", [](const Mesh& mesh) {
         return "<Mesh of " + std::to_string(mesh.positions.size()) + " positions, " +
                std::to_string(mesh.triangles.size()) + " triangles>";

@@ -125,22 +125,25 @@ py::object PythonValue<Transform>::write(const Transform& value) {
 
 ColorInput PythonValue<ColorInput>::read(py::handle value, const std::string& item) {
   ColorInput color;
+  if (py::isinstance<OperationIndex>(value)) return value.cast<OperationIndex>();
   if (py::isinstance<TextureRef>(value)) {
     color.texture = Id<Texture>{value.cast<TextureRef>().index};
   } else {
-    const auto [r, g, b] = read_numbers<3>(value, item, "must be three numbers or a TextureRef");
+    const auto [r, g, b] = read_numbers<3>(value, item, "must be three numbers, a TextureRef or an OperationRef");
     color.constant = {r, g, b};
   }
   return color;
 }
 
 py::object PythonValue<ColorInput>::write(const ColorInput& value) {
+  if (value.operation.is_valid()) return py::cast(value.operation);
   if (value.texture.is_valid()) return py::cast(TextureRef{value.texture.index});
   return PythonValue<Vec3f>::write(value.constant);
 }
 
-ShareInput PythonValue<ShareInput>::read(py::handle value, const std::string& item) {
-  ShareInput share;
+NumberInput PythonValue<NumberInput>::read(py::handle value, const std::string& item) {
+  if (py::isinstance<OperationIndex>(value)) return value.cast<OperationIndex>();
+  NumberInput share;
   if (py::isinstance<TextureRef>(value)) {
     const TextureRef reference = value.cast<TextureRef>();
     share.texture = Id<Texture>{reference.index};
@@ -148,12 +151,13 @@ ShareInput PythonValue<ShareInput>::read(py::handle value, const std::string& it
     return share;
   }
   const std::optional<double> number = to_double(value);
-  if (!number) refuse_type(item, "must be a number or a TextureRef", value);
+  if (!number) refuse_type(item, "must be a number, a TextureRef or an OperationRef", value);
   share.constant = static_cast<float>(*number);
   return share;
 }
 
-py::object PythonValue<ShareInput>::write(const ShareInput& value) {
+py::object PythonValue<NumberInput>::write(const NumberInput& value) {
+  if (value.operation.is_valid()) return py::cast(value.operation);
   if (value.texture.is_valid()) return py::cast(TextureRef{value.texture.index, value.is_alpha});
   return py::float_(value.constant);
 }

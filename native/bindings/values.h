@@ -94,18 +94,20 @@ struct PythonValue<Transform> {
 template <>
 struct PythonValue<ColorInput> {
   static constexpr const char* accepts =
-      "collections.abc.Sequence[float] | numpy.typing.ArrayLike | basicrt._native.TextureRef";
-  static constexpr const char* returns = "tuple[float, float, float] | basicrt._native.TextureRef";
+      "collections.abc.Sequence[float] | numpy.typing.ArrayLike | basicrt._native.TextureRef | "
+      "basicrt._native.OperationRef";
+  static constexpr const char* returns =
+      "tuple[float, float, float] | basicrt._native.TextureRef | basicrt._native.OperationRef";
   static ColorInput read(pybind11::handle value, const std::string& item);
   static pybind11::object write(const ColorInput& value);
 };
 
 template <>
-struct PythonValue<ShareInput> {
-  static constexpr const char* accepts = "float | basicrt._native.TextureRef";
-  static constexpr const char* returns = "float | basicrt._native.TextureRef";
-  static ShareInput read(pybind11::handle value, const std::string& item);
-  static pybind11::object write(const ShareInput& value);
+struct PythonValue<NumberInput> {
+  static constexpr const char* accepts = "float | basicrt._native.TextureRef | basicrt._native.OperationRef";
+  static constexpr const char* returns = accepts;
+  static NumberInput read(pybind11::handle value, const std::string& item);
+  static pybind11::object write(const NumberInput& value);
 };
 
 // The index of a shader node or of an entry of a table; None where there is none.

@@ -17,4 +17,8 @@ struct Id {
   constexpr bool operator==(const Id&) const = default;
 };
 
+// An index is no number that has a range.
+template <class T, class Visitor>
+constexpr void for_each_number(const Id<T>& /*id*/, Visitor&& /*visit*/) {}
+
 }  // namespace basicrt

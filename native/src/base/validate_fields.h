@@ -45,6 +45,9 @@ constexpr void for_each_number(const std::vector<T>& values, Visitor&& visit) {
   for (const T& value : values) for_each_number(value, visit);
 }
 
+template <class Visitor>
+constexpr void for_each_number(const std::string& /*text*/, Visitor&& /*visit*/) {}
+
 // Throws SceneError naming `item` and `field` for the first of the value's numbers that is out of range.
 template <class Value>
 void validate_field(const Value& value, const Range& range, std::string_view item, std::string_view field) {

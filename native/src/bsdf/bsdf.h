@@ -16,6 +16,7 @@
 #include "math/color.h"
 #include "math/frame.h"
 #include "math/ray.h"
+#include "shading/evaluator.h"
 #include "shading/material.h"
 
 namespace basicrt {
@@ -213,11 +214,11 @@ struct SurfaceShading {
 };
 
 [[nodiscard]] SurfaceShading shade(const Material& material, const Table<Texture>& textures, const SurfacePoint& point,
-                                   Vec3f wo);
+                                   Vec3f wo, const ShadingContext& context = {});
 
 // The share of light that passes straight through in direction wo, for shadow rays: black for an opaque material.
 [[nodiscard]] Color transparency(const Material& material, const Table<Texture>& textures, const SurfacePoint& point,
-                                 Vec3f wo);
+                                 Vec3f wo, const ShadingContext& context = {});
 [[nodiscard]] bool is_transparent(const Material& material);  // may transparency() be anything but black
 
 // Whether shade() looks at the point's dpdu and so on: add_derivatives() first.

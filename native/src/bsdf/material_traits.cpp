@@ -9,16 +9,17 @@
 
 namespace basicrt {
 
-Color transparency(const Material& material, const Table<Texture>& textures, const SurfacePoint& point, Vec3f /*wo*/) {
+Color transparency(const Material& material, const Table<Texture>& textures, const SurfacePoint& point, Vec3f wo,
+                   const ShadingContext& context) {
   Color sum(0.0f);
-  const Overloaded leaf{
-      [&](const TransparentShader& node, float weight) { sum += eval_color(node.color, textures, point.uv) * weight; },
-      [&](const PrincipledShader& node, float weight) {
-        sum += Color((1 - eval_share(node.alpha, textures, point.uv)) * weight);
-      },
-      [](const auto& /*opaque*/, float) {}};
-  const auto share_of = [&](const ShareInput& input) { return eval_share(input, textures, point.uv); };
-  for_each_leaf(material, material.surface, 1, share_of, leaf);
+  with_values(material, textures, point, wo, context, [&](const Evaluator& in) {
+    const Overloaded leaf{
+        [&](const TransparentShader& node, float weight) { sum += resolve(node, in).color.constant * weight; },
+        [&](const PrincipledShader& node, float weight) { sum += Color((1 - eval_factor(node.alpha, in)) * weight); },
+        [](const auto& /*opaque*/, float) {}};
+    for_each_leaf(
+        material, material.surface, 1, [&](const NumberInput& input) { return eval_factor(input, in); }, leaf);
+  });
   return sum;
 }
 
@@ -26,9 +27,9 @@ bool is_transparent(const Material& material) {
   bool result = false;
   const Overloaded leaf{
       [&](const TransparentShader& node, float) {
-        result |= node.color.texture.is_valid() || !is_black(node.color.constant);
+        result |= node.color.is_varying() || !is_black(node.color.constant);
       },
-      [&](const PrincipledShader& node, float) { result |= node.alpha.texture.is_valid() || node.alpha.constant < 1; },
+      [&](const PrincipledShader& node, float) { result |= node.alpha.is_varying() || node.alpha.constant < 1; },
       [](const auto& /*opaque*/, float) {}};
   for_each_leaf(material, leaf);
   return result;
@@ -39,29 +40,32 @@ bool needs_derivatives(const Material& material) {
   const Overloaded leaf{[&](const ConductorShader& node, float) { result |= node.is_stretched(); },
                         [](const auto& /*round*/, float) {}};
   for_each_leaf(material, leaf);
+  for (const Operation& operation : material.operations)
+    std::visit([&](const auto& node) { result |= needs_derivatives(node); }, operation);
   return result;
 }
 
 Color emitted_radiance(const Material& material, SurfaceSide side) {
   Color sum(0.0f);
   bool varies = false, shines = false;
-  const auto add = [&](const ColorInput& radiance, float weight) {
-    varies = varies || radiance.texture.is_valid();
-    shines = shines || radiance.texture.is_valid() || !is_black(radiance.constant);
-    sum += radiance.constant * weight;
+  const auto add = [&](const ColorInput& radiance, const NumberInput& strength, float weight) {
+    const bool is_varying = radiance.is_varying() || strength.is_varying();
+    varies = varies || is_varying;
+    shines = shines || is_varying || !is_black(radiance.constant * strength.constant);
+    sum += radiance.constant * (strength.constant * weight);
   };
   const Overloaded leaf{[&](const EmissionShader& node, float weight) {
                           if (node.is_two_sided || side == SurfaceSide::front)
-                            add(node.radiance, node.strength * weight);
+                            add(node.radiance, node.strength, weight);
                         },
                         [&](const PrincipledShader& node, float weight) {
-                          varies = varies || node.alpha.texture.is_valid();
-                          add(node.emission, node.emission_strength * node.alpha.constant * weight);
+                          varies = varies || node.alpha.is_varying();
+                          add(node.emission, node.emission_strength, node.alpha.constant * weight);
                         },
                         [](const auto& /*dark*/, float) {}};
-  const auto share_of = [&](const ShareInput& input) {
-    varies = varies || input.texture.is_valid();
-    return input.texture.is_valid() ? 0.5f : input.constant;
+  const auto share_of = [&](const NumberInput& input) {
+    varies = varies || input.is_varying();
+    return input.is_varying() ? 0.5f : input.constant;
   };
   for_each_leaf(material, material.surface, 1, share_of, leaf);
   return varies && shines ? Color(0.0f) : sum;
@@ -76,11 +80,16 @@ namespace {
 
 // Each of the layers that flatten() makes of it.
 int count_lobes(const PrincipledShader& node) {
-  const bool is_varied = node.alpha.texture.is_valid();
-  if (!is_varied && node.alpha.constant == 0) return 1;
-  const bool is_dielectric = node.metallic < 1, is_opaque = is_dielectric && node.transmission < 1;
-  return (is_varied || node.alpha.constant < 1) + (node.metallic > 0) + (is_dielectric && node.transmission > 0) +
-         2 * is_opaque;
+  const auto may_be = [](const NumberInput& input, auto&& is_so) {
+    return input.is_varying() || is_so(input.constant);
+  };
+  const auto is_some = [](float share) { return share > 0; };
+  const auto is_part = [](float share) { return share < 1; };
+  if (!may_be(node.alpha, is_some)) return 1;
+  const bool is_dielectric = may_be(node.metallic, is_part),
+             is_opaque = is_dielectric && may_be(node.transmission, is_part);
+  return may_be(node.alpha, is_part) + may_be(node.metallic, is_some) +
+         (is_dielectric && may_be(node.transmission, is_some)) + 2 * is_opaque;
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ Medium make_medium(const Material& material) {
                           medium.emission += node.radiance.constant * (node.strength * weight);
                         },
                         [](const auto& /*surface*/, float) {}};
-  const auto share_of = [](const ShareInput& input) { return input.constant; };
+  const auto share_of = [](const NumberInput& input) { return input.constant; };
   for_each_leaf(material, material.volume, 1, share_of, leaf);
   return medium;
 }

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "shading/program.h"
+
 namespace basicrt {
 namespace {
 
@@ -18,7 +20,7 @@ std::optional<SurfaceShading> uniform_shading(const Material& material, const Ta
 }  // namespace
 
 PreparedMaterial::PreparedMaterial(Material the_material, const Table<Texture>& textures)
-    : material(std::move(the_material)),
+    : material(compile(std::move(the_material), textures)),
       front(uniform_shading(material, textures, {0, 0, 1})),
       back(uniform_shading(material, textures, {0, 0, -1})),
       is_boundary(material.volume != no_node && material.surface == no_node) {
@@ -26,9 +28,9 @@ PreparedMaterial::PreparedMaterial(Material the_material, const Table<Texture>& 
 }
 
 SurfaceShading shade(const PreparedMaterial& prepared, const Table<Texture>& textures, const SurfacePoint& point,
-                     Vec3f wo) {
+                     Vec3f wo, const ShadingContext& context) {
   const std::optional<SurfaceShading>& uniform = dot(point.geometric_normal, wo) < 0 ? prepared.back : prepared.front;
-  if (!uniform) return shade(prepared.material, textures, point, wo);
+  if (!uniform) return shade(prepared.material, textures, point, wo, context);
   return {Bsdf(make_frame(point.shading_normal), point.geometric_normal, uniform->bsdf), uniform->emission,
           uniform->holdout};
 }

@@ -10,7 +10,7 @@
 namespace basicrt {
 
 struct PreparedMaterial {
-  Material material;
+  Material material;                          // compiled
   std::optional<SurfaceShading> front, back;  // of each side that is uniform
   std::optional<Medium> medium;               // what its volume is
   bool is_boundary = false;                   // it has a volume and no surface: light passes straight through
@@ -19,6 +19,6 @@ struct PreparedMaterial {
 };
 
 [[nodiscard]] SurfaceShading shade(const PreparedMaterial& prepared, const Table<Texture>& textures,
-                                   const SurfacePoint& point, Vec3f wo);
+                                   const SurfacePoint& point, Vec3f wo, const ShadingContext& context = {});
 
 }  // namespace basicrt

@@ -2,33 +2,20 @@
 // Walks a material's graph down to the nodes that scatter and emit.
 #pragma once
 
-#include <algorithm>
 #include <concepts>
 #include <variant>
 
-#include "base/table.h"
-#include "shading/material.h"
+#include "shading/program.h"
 
 namespace basicrt {
 
-inline Color eval_color(const ColorInput& input, const Table<Texture>& textures, Vec2f uv) {
-  return input.texture.is_valid() ? eval_texture(textures[input.texture], uv).color : input.constant;
-}
-
-// In [0, 1].
-inline float eval_share(const ShareInput& input, const Table<Texture>& textures, Vec2f uv) {
-  if (!input.texture.is_valid()) return input.constant;
-  const Rgba value = eval_texture(textures[input.texture], uv);
-  return std::clamp(input.is_alpha ? value.alpha : luminance(value.color), 0.0f, 1.0f);
-}
-
-template <class Input>
-bool is_constant(const Input& input, const Table<Texture>& textures) {
-  return !input.texture.is_valid() || std::holds_alternative<ConstantTexture>(textures[input.texture]);
+// Of a Mix, in [0, 1].
+inline float eval_factor(const NumberInput& input, const Evaluator& in) {
+  return input.is_varying() ? clamp_to_range(in(input), within(0, 1)) : input.constant;
 }
 
 // Calls visit(node, weight) for each way from `index` to a node that is neither Mix nor Add, with the product of the
-// shares on the way; share_of(ShareInput) gives a Mix's factor. lobe_count() bounds how many there are.
+// shares on the way; share_of(NumberInput) gives a Mix's factor. lobe_count() bounds how many there are.
 template <class ShareFunction, class Visitor>
 void for_each_leaf(const Material& material, NodeIndex index, float weight, ShareFunction&& share_of, Visitor&& visit) {
   if (index == no_node || weight == 0) return;
@@ -51,7 +38,7 @@ void for_each_leaf(const Material& material, NodeIndex index, float weight, Shar
 // At no place in particular: a share that varies counts as half.
 template <class Visitor>
 void for_each_leaf(const Material& material, Visitor&& visit) {
-  const auto share_of = [](const ShareInput& input) { return input.texture.is_valid() ? 0.5f : input.constant; };
+  const auto share_of = [](const NumberInput& input) { return input.is_varying() ? 0.5f : input.constant; };
   for_each_leaf(material, material.surface, 1, share_of, visit);
 }
 

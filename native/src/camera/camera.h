@@ -2,6 +2,7 @@
 // Cameras: they look along local -z with y up.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -10,6 +11,7 @@
 #include "camera/camera_base.h"
 #include "camera/panorama.h"
 #include "math/ray.h"
+#include "math/transform.h"
 
 namespace basicrt {
 
@@ -64,6 +66,13 @@ class CameraView {
   // Depth along the viewing axis, as the Depth pass has it; of a panorama, the distance.
   [[nodiscard]] float depth(Vec3f position) const {
     return is_panorama_ ? length(position - position_) : dot(position - position_, axis_);
+  }
+  // Where x is to the right, y up and z where the camera looks.
+  [[nodiscard]] TransformD world_to_camera() const {
+    const auto row = [&](Vec3f axis) {
+      return std::array<double, 4>{axis.x, axis.y, axis.z, -dot(Vec3d(axis), Vec3d(position_))};
+    };
+    return TransformD({row(right_), row(up_), row(axis_)});
   }
 
  private:

@@ -104,6 +104,16 @@ void validate(const Mesh& mesh, std::string_view item) {
   check_finite(item, "corner_normals", mesh.corner_normals);
   check_finite(item, "uvs", mesh.uvs);
   validate_motion(mesh, item);
+  for (const MeshAttribute& attribute : mesh.attributes) {
+    const std::size_t expected = attribute.domain == AttributeDomain::vertex ? mesh.positions.size()
+                                 : attribute.domain == AttributeDomain::face ? count
+                                                                             : 3 * count;
+    const std::string name = "attributes[\"" + attribute.name + "\"]";
+    if (attribute.values.size() != expected)
+      throw SceneError(std::string(item) + "." + name, "must have " + std::to_string(expected) + " values, has " +
+                                                           std::to_string(attribute.values.size()));
+    check_finite(item, name, attribute.values);
+  }
 }
 
 Mesh remove_degenerate_triangles(Mesh mesh, std::string_view item, Report& report) {
@@ -120,6 +130,10 @@ Mesh remove_degenerate_triangles(Mesh mesh, std::string_view item, Report& repor
   keep(mesh.corner_normals, kept, 3);
   keep(mesh.uvs, kept, 3);
   keep(mesh.material_slots, kept, 1);
+  for (MeshAttribute& attribute : mesh.attributes) {
+    if (attribute.domain == AttributeDomain::corner) keep(attribute.values, kept, 3);
+    if (attribute.domain == AttributeDomain::face) keep(attribute.values, kept, 1);
+  }
   return mesh;
 }
 

@@ -4,15 +4,30 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/describe.h"
 #include "base/report.h"
 #include "geometry/motion.h"
 #include "math/bounds.h"
 #include "math/vec.h"
 
 namespace basicrt {
+
+// What the values of a mesh's attribute belong to.
+enum class AttributeDomain : std::uint8_t { vertex, corner, face };
+template <>
+inline constexpr std::array enum_names<AttributeDomain> =
+    std::to_array<std::string_view>({"vertex", "corner", "face"});
+
+// Three numbers for each vertex, each corner of the triangles, or each triangle; a single number is there thrice.
+struct MeshAttribute {
+  std::string name;
+  AttributeDomain domain = AttributeDomain::vertex;
+  std::vector<Vec3f> values;
+};
 
 struct Mesh {
   std::vector<Vec3f> positions;
@@ -25,6 +40,10 @@ struct Mesh {
   // Of a mesh that deforms: the positions, and the corner normals where it has any, at further times. These are equally
   // spaced; the arrays above are of time 0, the last ones of time 1, and between two of them all is linear.
   std::vector<std::vector<Vec3f>> motion_positions, motion_corner_normals;
+
+  std::vector<MeshAttribute> attributes;  // those that materials ask for
+  // Where the generated coordinates are 0, and how far from there they are 1.
+  Vec3f texture_space_min{0.0f}, texture_space_size{1.0f};
 
   [[nodiscard]] bool is_deforming() const { return !motion_positions.empty(); }
   // Spans of time between two keys; 0 where it doesn't deform.

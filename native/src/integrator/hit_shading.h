@@ -65,8 +65,26 @@ class SurfacePoints {
   std::vector<Placement> moved_;  // of what moves, at the rays' times
 };
 
-[[nodiscard]] inline SurfaceShading shade_at(const PreparedScene& scene, const SurfacePoint& point, Vec3f wo) {
-  return shade(scene.material_of(point), scene.textures, point, wo);
+// What programs see of a point that a ray of these kinds met. The counts of bounces are the caller's to add.
+[[nodiscard]] inline ShadingContext shading_context(const PreparedScene& scene, const SurfacePoint& point,
+                                                    std::uint32_t ray_kinds) {
+  const PreparedScene::PreparedInstance& instance = scene.instances[point.instance];
+  return {.mesh = std::get_if<Mesh>(&scene.shapes[instance.shape]),
+          .placement = &instance.placement,
+          .object = &instance.info,
+          .world_to_camera = &scene.world_to_camera,
+          .material_index = scene.material_of(point).material.pass_index,
+          .ray_kinds = ray_kinds};
+}
+
+[[nodiscard]] inline SurfaceShading shade_at(const PreparedScene& scene, const SurfacePoint& point, Vec3f wo,
+                                             const ShadingContext& context) {
+  return shade(scene.material_of(point), scene.textures, point, wo, context);
+}
+
+[[nodiscard]] inline Color transparency_at(const PreparedScene& scene, const SurfacePoint& point, Vec3f wo,
+                                           const ShadingContext& context) {
+  return transparency(scene.material_of(point).material, scene.textures, point, wo, context);
 }
 
 // Notes the passes of a camera ray's first hit.

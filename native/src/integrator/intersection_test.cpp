@@ -46,7 +46,8 @@ void IntersectionTest::shade(std::span<PixelSample> samples, bool is_camera_ray)
     if (is_camera_ray) record_first_hit(scene_, point, sample);
 
     const Vec3f wo = -ray.direction;
-    const SurfaceShading shading = shade_at(scene_, point, wo);
+    const SurfaceShading shading =
+        shade_at(scene_, point, wo, shading_context(scene_, point, is_camera_ray ? ray_camera : ray_all));
     if (!shading.bsdf.has_only_deltas()) {
       gather_light(path, ray, point, to_light_[i % SurfacePoints::at_once], shading.bsdf);
       continue;

@@ -85,8 +85,9 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     }
     if (path.is_camera_ray && !sample.has_hit) record_first_hit(scene_, point, sample);
 
-    SurfaceShading shading = shade_at(scene_, point, -ray.direction);
-    if (path.shows_film) cut_out(path, point, -ray.direction, shading, sample);
+    const ShadingContext context = context_of(path, ray, point);
+    SurfaceShading shading = shade_at(scene_, point, -ray.direction, context);
+    if (path.shows_film) cut_out(path, point, -ray.direction, context, shading, sample);
     if (softens_caustics_) soften_caustics(scene_.settings, ray.kinds == ray_diffuse, path.least_pdf, shading.bsdf);
     if (path.is_camera_ray && scene_.instances[point.instance].is_shadow_catcher) {
       pass_catcher(path, ray, hit, point, shading.bsdf, sample);
@@ -107,6 +108,16 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
   rays_.insert(rays_.end(), caught_rays_.begin(), caught_rays_.end());
   caught_paths_.clear();
   caught_rays_.clear();
+}
+
+ShadingContext PathIntegrator::context_of(const Path& path, const Ray& ray, const SurfacePoint& point) const {
+  ShadingContext context = shading_context(scene_, point, ray.kinds);
+  context.bounces = path.bounces.total;
+  context.diffuse_bounces = path.bounces.diffuse;
+  context.glossy_bounces = path.bounces.glossy;
+  context.transmission_bounces = path.bounces.transmission;
+  context.transparent_bounces = path.bounces.transparent;
+  return context;
 }
 
 Color& PathIntegrator::sum_of(Destination destination, PixelSample& sample) {
@@ -176,11 +187,11 @@ void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const Sur
 }
 
 // Holdouts are holes, whether or not the film is transparent elsewhere.
-void PathIntegrator::cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, SurfaceShading& shading,
-                             PixelSample& sample) const {
+void PathIntegrator::cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, const ShadingContext& context,
+                             SurfaceShading& shading, PixelSample& sample) const {
   Color hole(shading.holdout);
   if (scene_.instances[point.instance].is_holdout) {
-    hole = Color(1.0f) - transparency(scene_.material_of(point).material, scene_.textures, point, wo);
+    hole = Color(1.0f) - transparency_at(scene_, point, wo, context);
     shading.emission = Color(0.0f);
     shading.bsdf.remove_opaque();
   }
@@ -351,7 +362,7 @@ void PathIntegrator::connect_through_transparency(std::span<PixelSample> samples
       }
       if (++connection.transparent_bounces > scene_.settings.transparent_bounces) continue;
       const SurfacePoint point = surface_point_at(scene_, ray, hits_[i]);
-      connection.radiance *= transparency(scene_.material_of(point).material, scene_.textures, point, -ray.direction);
+      connection.radiance *= transparency_at(scene_, point, -ray.direction, shading_context(scene_, point, ray_shadow));
       if (is_black(connection.radiance)) continue;
       continue_behind(ray, hits_[i], point);
       shadow_rays_[kept] = ray;

@@ -56,6 +56,7 @@ class PathIntegrator final : public Integrator {
   void connect(std::span<PixelSample> samples);  // tests the light samples for shadow
 
   // `ray` is the one that the path came by, up to the surface.
+  [[nodiscard]] ShadingContext context_of(const Path& path, const Ray& ray, const SurfacePoint& point) const;
   [[nodiscard]] static Color& sum_of(Destination destination, PixelSample& sample);
   static void cut_hole(const Path& path, Color share, PixelSample& sample);
   void add_light(const Path& path, Color radiance, PixelSample& sample) const;
@@ -65,8 +66,8 @@ class PathIntegrator final : public Integrator {
   void gather_environment(const Path& path, const Ray& ray, PixelSample& sample) const;
   void gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
                        PixelSample& sample) const;
-  void cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, SurfaceShading& shading,
-               PixelSample& sample) const;
+  void cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, const ShadingContext& context,
+               SurfaceShading& shading, PixelSample& sample) const;
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
   [[nodiscard]] float terminator_share(const SurfacePoint& point, Vec3f wi) const;
   [[nodiscard]] BsdfValue eval_towards(const LightSample& light, const SurfacePoint& point, Vec3f wo,

@@ -309,7 +309,8 @@ void PathIntegrator::connect_through_media(std::span<PixelSample> samples) {
       connection.radiance *= transmittance(extinction, point.t - ray.t_min);
       if (!material.is_boundary) {
         if (++connection.transparent_bounces > scene_.settings.transparent_bounces) continue;
-        connection.radiance *= transparency(material.material, scene_.textures, point, -ray.direction);
+        connection.radiance *=
+            transparency_at(scene_, point, -ray.direction, shading_context(scene_, point, ray_shadow));
       }
       if (is_black(connection.radiance)) continue;
       cross_surface(media, point);

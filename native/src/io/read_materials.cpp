@@ -13,7 +13,9 @@ namespace {
 template <class Shader>
 constexpr int count_color_inputs() {
   int count = 0;
-  for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>&) { count += std::same_as<Value, ColorInput>; });
+  for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
+    count += std::same_as<Value, ColorInput> && field.name != "normal";
+  });
   return count;
 }
 
@@ -23,7 +25,8 @@ class MaterialReader {
   MaterialReader(const SceneReader& reader, Material& material) : reader_(reader), material_(material) {}
 
   void read_material(const JsonValue& json) {
-    if (json.find("nodes") || json.find("surface") || json.find("volume")) return read_nodes(json);
+    if (json.find("nodes") || json.find("surface") || json.find("volume") || json.find("operations"))
+      return read_nodes(json);
     const NodeIndex shader = read_shader(json);
     const bool is_volume = std::holds_alternative<VolumeShader>(material_.nodes[shader]);
     (is_volume ? material_.volume : material_.surface) = shader;
@@ -31,8 +34,10 @@ class MaterialReader {
 
  private:
   void read_nodes(const JsonValue& json) {
-    json.check_keys(std::array<std::string_view, 4>{"nodes", "surface", "volume", "name"});
+    json.check_keys(std::array<std::string_view, 6>{"nodes", "operations", "surface", "volume", "name", "pass_index"});
     read_optional(json, "name", material_.name);
+    read_optional(json, "pass_index", material_.pass_index);
+    if (const auto operations = json.find("operations")) read_operations(*operations);
     if (const auto nodes = json.find("nodes")) {
       nodes->expect_array();
       for (std::size_t i = 0; i < nodes->size(); ++i) entries_.push_back(read_shader(nodes->item(i)));
@@ -42,43 +47,65 @@ class MaterialReader {
     if (const auto volume = json.find("volume")) read_input(*volume, material_.volume);
   }
 
+  void read_operations(const JsonValue& json) {
+    json.expect_array();
+    first_operation_ = static_cast<std::uint32_t>(material_.operations.size());
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      operation_count_ = static_cast<std::uint32_t>(i);
+      material_.add(read_variant<Operation>(json.item(i), [&]<class Kind>(const JsonValue& object, Kind& operation) {
+        object.check_keys(known_keys<Kind>());
+        read_fields(object, operation, [&](const JsonValue& value, auto& out) { read_field_value(value, out); });
+      }));
+    }
+    operation_count_ = static_cast<std::uint32_t>(json.size());
+  }
+
+  template <class Value>
+  void read_field_value(const JsonValue& value, Value& out) {
+    if constexpr (IsInput<Value>)
+      read_varying(value, out);
+    else if constexpr (std::same_as<Value, Id<Texture>>)
+      out = reader_.textures.resolve(value);
+    else if constexpr (std::same_as<Value, NodeIndex>)
+      read_input(value, out);
+    else
+      read(value, out);
+  }
+
   NodeIndex read_shader(const JsonValue& json) {
     return material_.add(read_variant<ShaderNode>(json, [&]<class Shader>(const JsonValue& object, Shader& shader) {
       constexpr bool has_one_color = count_color_inputs<Shader>() == 1;
       object.check_keys(has_one_color ? known_keys<Shader>({"texture_name"}) : known_keys<Shader>());
-      read_fields(object, shader, [&]<class Value>(const JsonValue& value, Value& out) {
-        if constexpr (std::same_as<Value, ColorInput>)
-          read_color(value, out);
-        else if constexpr (std::same_as<Value, ShareInput>)
-          read_share(value, out);
-        else if constexpr (std::same_as<Value, NodeIndex>)
-          read_input(value, out);
-        else
-          read(value, out);
-      });
+      read_fields(object, shader, [&](const JsonValue& value, auto& out) { read_field_value(value, out); });
       if constexpr (has_one_color) read_texture_name(object, shader);
     }));
   }
 
-  // A colour, or a texture's name.
-  void read_color(const JsonValue& value, ColorInput& out) const {
-    if (value.json().is_string())
-      out.texture = reader_.textures.resolve(value);
-    else
-      read(value, out.constant);
-  }
-
-  // A number, a texture's name, or {"texture": name, "alpha": true}.
-  void read_share(const JsonValue& value, ShareInput& out) const {
+  // A constant, a texture's name, {"texture": name, "alpha": true}, or {"operation": index}.
+  template <class Input>
+  void read_varying(const JsonValue& value, Input& out) const {
     if (value.json().is_string()) {
       out.texture = reader_.textures.resolve(value);
-    } else if (value.json().is_object()) {
-      value.check_keys(std::array<std::string_view, 2>{"texture", "alpha"});
+    } else if (!value.json().is_object()) {
+      read(value, out.constant);
+    } else if (const auto operation = value.find("operation")) {
+      value.check_keys(std::array<std::string_view, 1>{"operation"});
+      out.operation = find_operation(*operation);
+    } else if constexpr (std::same_as<Input, NumberInput>) {
+      value.check_keys(std::array<std::string_view, 3>{"texture", "alpha", "operation"});
       out.texture = reader_.textures.resolve(value.require("texture"));
       read_optional(value, "alpha", out.is_alpha);
     } else {
-      read(value, out.constant);
+      value.check_keys(std::array<std::string_view, 1>{"operation"});
+      (void)value.require("operation");
     }
+  }
+
+  [[nodiscard]] OperationIndex find_operation(const JsonValue& value) const {
+    std::uint32_t index = 0;
+    read(value, index);
+    if (index >= operation_count_) value.fail("no operation " + std::to_string(index) + " comes before this");
+    return {first_operation_ + index};
   }
 
   // The assignment's key for the texture of a shader's only colour.
@@ -88,6 +115,7 @@ class MaterialReader {
     if (!texture_name) return;
     for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
       if constexpr (std::same_as<Value, ColorInput>) {
+        if (field.name == "normal") return;
         if (object.find(field.name)) texture_name->fail("give this or \"" + std::string(field.name) + "\", not both");
         (shader.*field.member).texture = reader_.textures.resolve(*texture_name);
       }
@@ -125,8 +153,9 @@ class MaterialReader {
   const SceneReader& reader_;
   Material& material_;
   bool reads_volume_ = false;
-  std::vector<NodeIndex> entries_;                 // the nodes that the entries of "nodes" became
-  std::map<std::uint32_t, MaterialRoots> copies_;  // by the other material's index
+  std::uint32_t first_operation_ = 0, operation_count_ = 0;  // of those that may be named
+  std::vector<NodeIndex> entries_;                           // the nodes that the entries of "nodes" became
+  std::map<std::uint32_t, MaterialRoots> copies_;            // by the other material's index
 };
 
 }  // namespace
@@ -136,15 +165,22 @@ MaterialRoots append_nodes(Material& material, const Material& other) {
   const auto move_index = [&](NodeIndex& index) {
     if (index != no_node) index += offset;
   };
+  const auto first_operation = static_cast<std::uint32_t>(material.operations.size());
+  const auto move_fields = [&]<class Described>(Described& described) {
+    for_each_field<Described>([&]<class Value>(const Field<Described, Value>& field) {
+      if constexpr (std::same_as<Value, NodeIndex>) move_index(described.*field.member);
+      if constexpr (IsInput<Value>)
+        if (Value& input = described.*field.member; input.operation.is_valid())
+          input.operation.index += first_operation;
+    });
+  };
+  for (Operation operation : other.operations) {
+    std::visit(move_fields, operation);
+    material.add(std::move(operation));
+  }
   for (ShaderNode node : other.nodes) {
-    std::visit(
-        [&]<class Shader>(Shader& shader) {
-          for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
-            if constexpr (std::same_as<Value, NodeIndex>) move_index(shader.*field.member);
-          });
-        },
-        node);
-    material.add(node);
+    std::visit(move_fields, node);
+    material.add(std::move(node));
   }
   MaterialRoots roots{other.surface, other.volume};
   move_index(roots.surface);

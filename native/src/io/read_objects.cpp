@@ -11,7 +11,7 @@ namespace basicrt {
 namespace {
 
 // "shape", then what every object may have.
-constexpr std::array<std::string_view, 13> shape_object_keys = {"shape",
+constexpr std::array<std::string_view, 16> shape_object_keys = {"shape",
                                                                 "name",
                                                                 "material_name",
                                                                 "materials",
@@ -22,6 +22,9 @@ constexpr std::array<std::string_view, 13> shape_object_keys = {"shape",
                                                                 "visibility",
                                                                 "holdout",
                                                                 "shadow_catcher",
+                                                                "color",
+                                                                "pass_index",
+                                                                "random",
                                                                 "shadow_terminator_offset",
                                                                 "shadow_terminator_shading_offset"};
 constexpr auto object_keys = std::span(shape_object_keys).subspan(1);
@@ -104,6 +107,9 @@ void read_object(SceneReader& reader, const JsonValue& object) {
   instance.materials = read_material_slots(reader, object);
   if (const auto visibility = object.find("visibility")) instance.visibility = read_visibility(*visibility);
   read_optional(object, "holdout", instance.is_holdout);
+  read_optional(object, "color", instance.info.color);
+  read_optional(object, "pass_index", instance.info.pass_index);
+  read_optional(object, "random", instance.info.random);
   read_optional(object, "shadow_catcher", instance.is_shadow_catcher);
   read_optional(object, "shadow_terminator_offset", instance.shadow_terminator_offset);
   read_optional(object, "shadow_terminator_shading_offset", instance.shadow_terminator_shading_offset);

@@ -45,8 +45,24 @@ std::vector<std::vector<Vec3f>> read_keys(const JsonValue& object, std::string_v
   return keys;
 }
 
-constexpr std::array<std::string_view, 7> inline_mesh_keys = {
-    "positions", "triangles", "corner_normals", "uvs", "material_slots", "motion_positions", "motion_corner_normals"};
+constexpr std::array<std::string_view, 10> inline_mesh_keys = {
+    "positions",         "triangles",         "corner_normals",        "uvs",
+    "material_slots",    "motion_positions",  "motion_corner_normals", "attributes",
+    "texture_space_min", "texture_space_size"};
+
+std::vector<MeshAttribute> read_attributes(const JsonValue& attributes) {
+  attributes.expect_array();
+  std::vector<MeshAttribute> result;
+  for (std::size_t i = 0; i < attributes.size(); ++i) {
+    const JsonValue attribute = attributes.item(i);
+    attribute.check_keys(std::array<std::string_view, 3>{"name", "domain", "values"});
+    MeshAttribute& added = result.emplace_back();
+    read(attribute.require("name"), added.name);
+    read_optional(attribute, "domain", added.domain);
+    added.values = read_elements<Vec3f, 3>(attribute, "values");
+  }
+  return result;
+}
 
 Mesh read_inline_mesh(const JsonValue& object) {
   (void)object.require("positions");
@@ -59,6 +75,9 @@ Mesh read_inline_mesh(const JsonValue& object) {
             .motion_positions = read_keys(object, "motion_positions"),
             .motion_corner_normals = read_keys(object, "motion_corner_normals")};
   if (const auto slots = object.find("material_slots")) read_numbers(*slots, mesh.material_slots);
+  if (const auto attributes = object.find("attributes")) mesh.attributes = read_attributes(*attributes);
+  read_optional(object, "texture_space_min", mesh.texture_space_min);
+  read_optional(object, "texture_space_size", mesh.texture_space_size);
   validate(mesh, object.path());
   return mesh;
 }

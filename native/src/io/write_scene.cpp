@@ -92,33 +92,45 @@ Json write_environment(const Environment& environment, ImageWriter& images) {
   return json;
 }
 
-Json write_share(const ShareInput& input, const SceneKeys& keys) {
+template <class Input>
+Json write_varying(const Input& input, const SceneKeys& keys) {
+  if (input.operation.is_valid()) return Json{{"operation", input.operation.index}};
   if (!input.texture.is_valid()) return write(input.constant);
   const std::string& texture = keys.textures.at(input.texture.index);
-  return input.is_alpha ? Json{{"texture", texture}, {"alpha", true}} : Json(texture);
+  if constexpr (std::same_as<Input, NumberInput>)
+    if (input.is_alpha) return Json{{"texture", texture}, {"alpha", true}};
+  return texture;
 }
 
-Json write_shader(const ShaderNode& node, const SceneKeys& keys) {
-  const auto write_input = [&]<class Value>(const Value& value) -> Json {
-    if constexpr (std::same_as<Value, ColorInput>)
-      return value.texture.is_valid() ? Json(keys.textures.at(value.texture.index)) : write(value.constant);
-    else if constexpr (std::same_as<Value, ShareInput>)
-      return write_share(value, keys);
+// A shader or an operation.
+template <class Variant>
+Json write_node(const Variant& node, const SceneKeys& keys) {
+  const auto write_value = [&]<class Value>(const Value& value) -> Json {
+    if constexpr (IsInput<Value>)
+      return write_varying(value, keys);
     else if constexpr (std::same_as<Value, NodeIndex>)
       return value == no_node ? Json(nullptr) : Json(value);
+    else if constexpr (std::same_as<Value, Id<Texture>>)
+      return keys.textures.at(value.index);
+    else if constexpr (std::same_as<Value, std::string>)
+      return value;
     else
       return write(value);
   };
-  return std::visit([&](const auto& shader) { return write_fields(shader, write_input); }, node);
+  return std::visit([&](const auto& kind) { return write_fields(kind, write_value); }, node);
 }
 
 Json write_material(const Material& material, const std::string& key, const SceneKeys& keys) {
-  if (material.nodes.size() == 1 && material.surface == 0 && material.volume == no_node && material.name == key)
-    return write_shader(material.nodes[0], keys);
+  if (material.nodes.size() == 1 && material.surface == 0 && material.volume == no_node && material.name == key &&
+      material.operations.empty() && material.pass_index == 0)
+    return write_node(material.nodes[0], keys);
   Json json = Json::object();
   if (material.name != key) json["name"] = material.name;
+  if (material.pass_index != 0) json["pass_index"] = write(material.pass_index);
+  if (!material.operations.empty()) json["operations"] = Json::array();
+  for (const Operation& operation : material.operations) json["operations"].push_back(write_node(operation, keys));
   json["nodes"] = Json::array();
-  for (const ShaderNode& node : material.nodes) json["nodes"].push_back(write_shader(node, keys));
+  for (const ShaderNode& node : material.nodes) json["nodes"].push_back(write_node(node, keys));
   if (material.surface != no_node) json["surface"] = material.surface;
   if (material.volume != no_node) json["volume"] = material.volume;
   return json;
@@ -135,6 +147,13 @@ Json write_mesh(const Mesh& mesh) {
     json["motion_positions"].push_back(write_array(positions));
   for (const std::vector<Vec3f>& normals : mesh.motion_corner_normals)
     json["motion_corner_normals"].push_back(write_array(normals));
+  for (const MeshAttribute& attribute : mesh.attributes)
+    json["attributes"].push_back(
+        {{"name", attribute.name}, {"domain", write(attribute.domain)}, {"values", write_array(attribute.values)}});
+  if (mesh.texture_space_min != Vec3f(0.0f) || mesh.texture_space_size != Vec3f(1.0f)) {
+    json["texture_space_min"] = write(mesh.texture_space_min);
+    json["texture_space_size"] = write(mesh.texture_space_size);
+  }
   return json;
 }
 
@@ -158,6 +177,9 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
       if ((instance.visibility >> bit) & 1u) json["visibility"].push_back(ray_kind_names[bit]);
   }
   if (instance.is_holdout) json["holdout"] = true;
+  if (instance.info.color != Color(1.0f)) json["color"] = write(instance.info.color);
+  if (instance.info.pass_index != 0) json["pass_index"] = write(instance.info.pass_index);
+  if (instance.info.random != 0) json["random"] = write(instance.info.random);
   if (instance.is_shadow_catcher) json["shadow_catcher"] = true;
   if (instance.shadow_terminator_offset != 0)
     json["shadow_terminator_offset"] = write(instance.shadow_terminator_offset);

@@ -182,6 +182,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   prepared.view = CameraView(*scene.camera, film_size);
   prepared.moving_camera = MovingCamera(*scene.camera, film_size);
   prepared.has_motion = prepared.moving_camera.is_moving();
+  prepared.world_to_camera = prepared.view.world_to_camera();
   prepared.shutter = Shutter(scene.settings.shutter_curve);
   prepared.settings = scene.settings;
   prepared.textures = scene.textures;
@@ -201,6 +202,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
                                   .placement = placement,
                                   .motion = motion_of(instance),
                                   .materials = resolve_materials(instance, default_index),
+                                  .info = instance.info,
                                   .is_holdout = instance.is_holdout,
                                   .is_shadow_catcher = instance.is_shadow_catcher,
                                   .shadow_terminator_offset = shadow_terminator_offset(scene, instance),

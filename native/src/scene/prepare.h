@@ -25,6 +25,7 @@ struct PreparedScene {
     std::vector<TransformD> motion;        // object to world over time, instead of the placement; none: it stands still
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
     bool needs_derivatives = false;        // one of the materials does
+    ObjectInfo info;
     bool is_holdout = false;
     bool is_shadow_catcher = false;
     float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
@@ -32,6 +33,7 @@ struct PreparedScene {
 
   CameraView view;             // of a camera that stands still
   MovingCamera moving_camera;  // of one that moves
+  TransformD world_to_camera;  // when the shutter opens; z points where the camera looks
   Shutter shutter;             // for what moves
   RenderSettings settings;
   std::vector<Shape> shapes;

@@ -13,6 +13,7 @@
 #include "geometry/shape.h"
 #include "light/light_set.h"
 #include "scene/settings.h"
+#include "shading/evaluator.h"
 #include "shading/material.h"
 
 namespace basicrt {
@@ -30,6 +31,7 @@ struct Instance {
   std::vector<Transform> motion_transforms;
   bool is_holdout = false;         // a hole in the picture, for camera rays
   bool is_shadow_catcher = false;  // the camera sees through it, to where it darkens by others' shadows
+  ObjectInfo info;                 // for materials that ask
   // See shadow_terminator.h, both in [0, 1].
   float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
 };

@@ -86,14 +86,69 @@ void validate_environment(const Environment& environment) {
   }
 }
 
-// What a shader refers to: textures of the scene, and nodes before it.
+// `count` operations may be named.
+template <class Input>
+void validate_input(const Scene& scene, const Input& input, std::size_t count, const std::string& item) {
+  if (input.texture.is_valid()) validate_id(input.texture, scene.textures, item, "textures");
+  if (input.operation.is_valid() && input.operation.index >= count)
+    throw SceneError(item, "operation " + std::to_string(input.operation.index) + ", but there are " +
+                               std::to_string(count) + " before this");
+}
+
+void validate_table(const TableOperation& node, const std::string& item) {
+  if (node.colors.empty() || node.colors.size() % 3 != 0)
+    throw SceneError(item + ".colors",
+                     "must be three numbers for each of one colour or more, has " + std::to_string(node.colors.size()));
+  if (!(node.minimum < node.maximum)) throw SceneError(item + ".maximum", "must be greater than minimum");
+}
+
+// What an operation refers to: textures of the scene, and operations before it.
+void validate_operations(const Scene& scene, const Material& material, const std::string& item) {
+  for (std::size_t i = 0; i < material.operations.size(); ++i) {
+    const std::string operation_item = item + "." + entry("operations", i);
+    std::visit(
+        [&]<class Kind>(const Kind& node) {
+          validate_described(node, operation_item);
+          for_each_field<Kind>([&]<class Value>(const Field<Kind, Value>& field) {
+            const std::string field_item = join_path(operation_item, field.name);
+            if constexpr (IsInput<Value>) validate_input(scene, node.*field.member, i, field_item);
+            if constexpr (std::same_as<Value, Id<Texture>>)
+              validate_id(node.*field.member, scene.textures, field_item, "textures");
+          });
+          if constexpr (std::same_as<Kind, TableOperation>) validate_table(node, operation_item);
+        },
+        material.operations[i]);
+  }
+}
+
+// A volume is the same everywhere.
+void validate_volume(const Material& material, NodeIndex index, const std::string& item, std::vector<bool>& is_seen) {
+  if (index == no_node || is_seen[index]) return;
+  is_seen[index] = true;
+  std::visit(
+      [&]<class Shader>(const Shader& shader) {
+        for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
+          if constexpr (IsInput<Value>) {
+            if ((shader.*field.member).operation.is_valid())
+              throw SceneError(join_path(item + "." + entry("nodes", index), field.name),
+                               "is an operation, but nothing in a volume may vary");
+          } else if constexpr (std::same_as<Value, NodeIndex>) {
+            validate_volume(material, shader.*field.member, item, is_seen);
+          }
+        });
+      },
+      material.nodes[index]);
+}
+
+// What a shader refers to: operations, textures of the scene, and nodes before it.
 template <class Shader>
-void validate_shader(const Scene& scene, const Shader& shader, NodeIndex index, const std::string& item) {
+void validate_shader(const Scene& scene, const Shader& shader, const Material& material, NodeIndex index,
+                     const std::string& item) {
   validate_described(shader, item);
   for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
     const Value& value = shader.*field.member;
-    if constexpr (std::same_as<Value, ColorInput> || std::same_as<Value, ShareInput>) {
-      if (value.texture.is_valid()) validate_id(value.texture, scene.textures, join_path(item, field.name), "textures");
+    if constexpr (IsInput<Value>) {
+      validate_input(scene, value, material.operations.size(), join_path(item, field.name));
     } else if constexpr (std::same_as<Value, NodeIndex>) {
       if (value != no_node && value >= index)
         throw SceneError(join_path(item, field.name),
@@ -106,9 +161,11 @@ void validate_materials(const Scene& scene) {
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
     const std::string item = entry("materials", i);
+    validate_operations(scene, material, item);
     for (NodeIndex node = 0; node < material.nodes.size(); ++node) {
       const std::string node_item = material.nodes.size() == 1 ? item : item + "." + entry("nodes", node);
-      std::visit([&](const auto& shader) { validate_shader(scene, shader, node, node_item); }, material.nodes[node]);
+      std::visit([&](const auto& shader) { validate_shader(scene, shader, material, node, node_item); },
+                 material.nodes[node]);
     }
     if (material.surface != no_node && material.surface >= material.nodes.size())
       throw SceneError(item + ".surface", "node " + std::to_string(material.surface) + ", but the material has " +
@@ -116,6 +173,8 @@ void validate_materials(const Scene& scene) {
     if (material.volume != no_node && material.volume >= material.nodes.size())
       throw SceneError(item + ".volume", "node " + std::to_string(material.volume) + ", but the material has " +
                                              std::to_string(material.nodes.size()) + " nodes");
+    std::vector<bool> is_seen(material.nodes.size());
+    validate_volume(material, material.volume, item, is_seen);
     if (const int lobes = lobe_count(material); lobes > Bsdf::max_lobes)
       throw SceneError(item, "combines more shaders than can be rendered: its graph makes " + std::to_string(lobes) +
                                  " lobes, but at most " + std::to_string(Bsdf::max_lobes) + " are allowed");

@@ -13,38 +13,10 @@
 #include "base/describe.h"
 #include "base/id.h"
 #include "math/color.h"
-#include "shading/texture.h"
+#include "shading/inputs.h"
+#include "shading/operation.h"
 
 namespace basicrt {
-
-// A colour that may vary over the surface: the texture where there is one, else the constant.
-struct ColorInput {
-  Color constant{0.8f};
-  Id<Texture> texture{};
-
-  ColorInput() = default;
-  ColorInput(Color c) : constant(c) {}  // NOLINT: a colour is a colour input
-};
-
-template <class Visitor>
-constexpr void for_each_number(const ColorInput& input, Visitor&& visit) {
-  for_each_number(input.constant, visit);
-}
-
-// A number in [0, 1] that may vary over the surface: a texture's luminance or alpha, or the constant.
-struct ShareInput {
-  float constant = 1;
-  Id<Texture> texture{};
-  bool is_alpha = false;
-
-  ShareInput() = default;
-  ShareInput(float share) : constant(share) {}  // NOLINT: a number is an input
-};
-
-template <class Visitor>
-constexpr void for_each_number(const ShareInput& input, Visitor&& visit) {
-  visit(input.constant);
-}
 
 // The index of a node in Material::nodes.
 using NodeIndex = std::uint32_t;
@@ -57,28 +29,33 @@ template <>
 inline constexpr std::array enum_names<FacetDistribution> =
     std::to_array<std::string_view>({"multi_ggx", "ggx", "beckmann"});
 inline constexpr std::string_view facet_distribution_doc = "how the microfacets are turned: multi_ggx, ggx or beckmann";
+inline constexpr std::string_view normal_doc = "in world space, on the viewer's side; zero is the surface's own";
 
 struct DiffuseShader {
   ColorInput color;
   bool is_two_sided = false;
+  ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "diffuse";
   static constexpr auto fields() {
     return std::tuple{field("color", &DiffuseShader::color, "reflectance", within(0, 1)),
-                      field("twosided", &DiffuseShader::is_two_sided, "whether the back reflects too")};
+                      field("twosided", &DiffuseShader::is_two_sided, "whether the back reflects too"),
+                      field("normal", &DiffuseShader::normal, normal_doc)};
   }
 };
 
 // Blender's Glossy node: microfacets tinted by a colour, without Fresnel; a mirror where the roughness is 0.
 struct GlossyShader {
   ColorInput color;
-  float roughness = 0.5f;
+  NumberInput roughness = 0.5f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
+  ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "glossy";
   static constexpr auto fields() {
     return std::tuple{
         field("color", &GlossyShader::color, "reflectance", within(0, 1)),
         field("roughness", &GlossyShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
-        field("distribution", &GlossyShader::distribution, facet_distribution_doc)};
+        field("distribution", &GlossyShader::distribution, facet_distribution_doc),
+        field("normal", &GlossyShader::normal, normal_doc)};
   }
 };
 
@@ -106,10 +83,11 @@ struct ConductorShader {
 // them whatever the distribution.
 struct RefractionShader {
   ColorInput color{Color(1.0f)};
-  float ior = 1.5f;
-  float roughness = 0;
+  NumberInput ior = 1.5f;
+  NumberInput roughness = 0.0f;
   FacetDistribution distribution = FacetDistribution::ggx;
   bool is_total_reflection_kept = true;
+  ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "refraction";
   static constexpr auto fields() {
     return std::tuple{
@@ -118,23 +96,26 @@ struct RefractionShader {
         field("roughness", &RefractionShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
         field("distribution", &RefractionShader::distribution, facet_distribution_doc),
         field("total_reflection", &RefractionShader::is_total_reflection_kept,
-              "mirror light past the critical angle, or lose it as Blender does")};
+              "mirror light past the critical angle, or lose it as Blender does"),
+        field("normal", &RefractionShader::normal, normal_doc)};
   }
 };
 
 // Fresnel reflection and refraction, by microfacets where rough.
 struct GlassShader {
   ColorInput reflect_color{Color(1.0f)}, transmit_color{Color(1.0f)};
-  float ior = 1.5f;
-  float roughness = 0;
+  NumberInput ior = 1.5f;
+  NumberInput roughness = 0.0f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
+  ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "glass";
   static constexpr auto fields() {
     return std::tuple{field("R", &GlassShader::reflect_color, "tint of the reflected light", within(0, 1)),
                       field("T", &GlassShader::transmit_color, "tint of the refracted light", within(0, 1)),
                       field("eta", &GlassShader::ior, "refractive index inside over outside", above(0)),
                       field("roughness", &GlassShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
-                      field("distribution", &GlassShader::distribution, facet_distribution_doc)};
+                      field("distribution", &GlassShader::distribution, facet_distribution_doc),
+                      field("normal", &GlassShader::normal, normal_doc)};
   }
 };
 
@@ -149,7 +130,7 @@ struct TransparentShader {
 struct EmissionShader {
   ColorInput radiance{Color(1.0f)};
   bool is_two_sided = true;
-  float strength = 1;
+  NumberInput strength = 1.0f;
   static constexpr std::string_view kind = "emission";
   static constexpr auto fields() {
     return std::tuple{field("radiance", &EmissionShader::radiance, "W / (m^2 sr), each direction alike", at_least(0)),
@@ -164,14 +145,15 @@ struct HoldoutShader {
   static constexpr auto fields() { return std::tuple{}; }
 };
 
-// Blender's Principled BSDF with constant values: the sockets that change an ordinary opaque, metal or glass surface.
+// Blender's Principled BSDF: the sockets that change an ordinary opaque, metal or glass surface.
 struct PrincipledShader {
   ColorInput base_color;
-  float metallic = 0, roughness = 0.5f, ior = 1.5f, transmission = 0, specular_ior_level = 0.5f;
+  NumberInput metallic = 0.0f, roughness = 0.5f, ior = 1.5f, transmission = 0.0f, specular_ior_level = 0.5f;
   ColorInput emission{Color(0.0f)};
-  float emission_strength = 1;
-  ShareInput alpha = 1.0f;
+  NumberInput emission_strength = 1.0f;
+  NumberInput alpha = 1.0f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
+  ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "principled";
   static constexpr auto fields() {
     return std::tuple{
@@ -186,7 +168,8 @@ struct PrincipledShader {
         field("emission", &PrincipledShader::emission, "W / (m^2 sr), both sides", at_least(0)),
         field("emission_strength", &PrincipledShader::emission_strength, "multiplies the emission", at_least(0)),
         field("alpha", &PrincipledShader::alpha, "opacity", within(0, 1)),
-        field("distribution", &PrincipledShader::distribution, facet_distribution_doc)};
+        field("distribution", &PrincipledShader::distribution, facet_distribution_doc),
+        field("normal", &PrincipledShader::normal, normal_doc)};
   }
 };
 
@@ -221,7 +204,7 @@ struct VolumeShader {
 };
 
 struct MixShader {
-  ShareInput factor = 0.5f;
+  NumberInput factor = 0.5f;
   NodeIndex first = no_node, second = no_node;
   static constexpr std::string_view kind = "mix";
   static constexpr auto fields() {
@@ -249,9 +232,15 @@ using ShaderNode =
 struct Material {
   std::string name;
   std::vector<ShaderNode> nodes;
-  NodeIndex surface = no_node;  // none: black, opaque; with a volume nothing but the volume's boundary
-  NodeIndex volume = no_node;   // what fills the shape: of VolumeShader and EmissionShader nodes, mixed and added
+  std::vector<Operation> operations;  // each refers only to those before it
+  NodeIndex surface = no_node;        // none: black, opaque; with a volume nothing but the volume's boundary
+  float pass_index = 0;               // for operations that ask
+  NodeIndex volume = no_node;         // what fills the shape: of VolumeShader and EmissionShader nodes, mixed and added
 
+  OperationIndex add(Operation operation) {
+    operations.push_back(std::move(operation));
+    return {static_cast<std::uint32_t>(operations.size() - 1)};
+  }
   NodeIndex add(ShaderNode node) {
     nodes.push_back(std::move(node));
     return static_cast<NodeIndex>(nodes.size() - 1);

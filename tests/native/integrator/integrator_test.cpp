@@ -120,7 +120,7 @@ TEST(Path, a_share_that_varies_cuts_a_hole) {
   for (const float x : {-0.1f, 0.1f}) {
     Scene scene = scene_from_above(16);
     scene.environment.radiance = Color(1.0f);
-    ShareInput step;
+    NumberInput step;
     step.texture = add_step(scene);
     Material sheet;
     const NodeIndex clear = sheet.add(TransparentShader{});

@@ -57,9 +57,16 @@ Json value_schema(const Range& range) {
   else if constexpr (std::same_as<Value, std::vector<float>>)
     return {{"type", "array"}, {"items", range_schema("number", range)}};
   else if constexpr (std::same_as<Value, ColorInput>)
-    return {{"oneOf", {vector_schema(3, range), {{"description", "a texture's name"}, {"type", "string"}}}}};
-  else if constexpr (std::same_as<Value, ShareInput>)
-    return {{"oneOf", {range_schema("number", range), {{"$ref", "#/$defs/texture_share"}}}}};
+    return {{"oneOf",
+             {vector_schema(3, range),
+              {{"description", "a texture's name"}, {"type", "string"}},
+              {{"$ref", "#/$defs/operation_value"}}}}};
+  else if constexpr (std::same_as<Value, NumberInput>)
+    return {
+        {"oneOf",
+         {range_schema("number", range), {{"$ref", "#/$defs/texture_share"}}, {{"$ref", "#/$defs/operation_value"}}}}};
+  else if constexpr (std::same_as<Value, std::string> || std::same_as<Value, Id<Texture>>)
+    return {{"type", "string"}};
   else
     return {{"enum", enum_names<Value>}};
 }
@@ -84,7 +91,9 @@ Json definition_of(const Json& extra = Json::object()) {
 template <class Shader>
 bool has_one_color() {
   int count = 0;
-  for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>&) { count += std::same_as<Value, ColorInput>; });
+  for_each_field<Shader>([&]<class Value>(const Field<Shader, Value>& field) {
+    count += std::same_as<Value, ColorInput> && field.name != "normal";
+  });
   return count == 1;
 }
 
@@ -118,6 +127,13 @@ Json expected_definitions() {
     const Json extra = has_one_color<Shader>() ? texture_name : Json::object();
     definitions[std::string(Shader::kind) + "_shader"] = definition_of<Shader>(extra);
   });
+  Json operations = Json::array();
+  for_each_kind<Operation>([&]<class Kind>(const Kind&) {
+    const std::string name = std::string(Kind::kind) + "_operation";
+    definitions[name] = definition_of<Kind>();
+    operations.push_back({{"$ref", "#/$defs/" + name}});
+  });
+  definitions["operation"] = {{"oneOf", operations}};
   for_each_kind<Light>(
       [&]<class Kind>(const Kind&) { definitions[std::string(Kind::kind) + "_light"] = definition_of<Kind>(); });
   for_each_kind<Camera>(

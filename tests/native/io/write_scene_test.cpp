@@ -53,7 +53,7 @@ Scene make_full_scene() {
   Material material{.name = "all \"kinds\"\n\xc3\xa4", .nodes = {}};
   ColorInput textured;
   textured.texture = Id<Texture>{2};
-  ShareInput shared;
+  NumberInput shared;
   shared.texture = Id<Texture>{3};
   shared.is_alpha = true;
   const NodeIndex first = material.add(DiffuseShader{.color = textured, .is_two_sided = true});

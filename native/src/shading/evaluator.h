@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an operation sees when it runs: its inputs' values, and the point of the surface.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "base/table.h"
+#include "geometry/mesh.h"
+#include "geometry/placement.h"
+#include "geometry/surface_point.h"
+#include "shading/inputs.h"
+
+namespace basicrt {
+
+// Of an object, for Blender's Object Info.
+struct ObjectInfo {
+  Color color{1.0f};
+  float pass_index = 0, random = 0;
+};
+
+// What surrounds a point that is shaded. All of it may be missing: then it counts as zero.
+struct ShadingContext {
+  const Mesh* mesh = nullptr;  // none on a sphere
+  const Placement* placement = nullptr;
+  const ObjectInfo* object = nullptr;
+  const TransformD* world_to_camera = nullptr;  // z points where the camera looks
+  float material_index = 0;
+  std::uint32_t ray_kinds = 0;  // RayKind bits
+  int bounces = 0, diffuse_bounces = 0, glossy_bounces = 0, transmission_bounces = 0, transparent_bounces = 0;
+};
+
+class Evaluator {
+ public:
+  Evaluator(std::span<const Vec3f> values, const Table<Texture>& the_textures, const ShadingContext& surroundings,
+            const SurfacePoint& surface_point, Vec3f to_viewer)
+      : textures(the_textures), context(surroundings), point(surface_point), wo(to_viewer), values_(values) {}
+
+  [[nodiscard]] float operator()(const NumberInput& input) const {
+    if (input.operation.is_valid()) return values_[input.operation.index].x;
+    if (!input.texture.is_valid()) return input.constant;
+    const Rgba value = eval_texture(textures[input.texture], point.uv);
+    return input.is_alpha ? value.alpha : luminance(value.color);
+  }
+  [[nodiscard]] Vec3f operator()(const ColorInput& input) const {
+    if (input.operation.is_valid()) return values_[input.operation.index];
+    return input.texture.is_valid() ? eval_texture(textures[input.texture], point.uv).color : input.constant;
+  }
+
+  const Table<Texture>& textures;
+  const ShadingContext& context;
+  const SurfacePoint& point;
+  const Vec3f wo;
+
+ private:
+  std::span<const Vec3f> values_;
+};
+
+}  // namespace basicrt

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a program reads of the surface, the object and the ray.
+#include "shading/surface_operations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/ray.h"
+#include "shading/evaluator.h"
+
+namespace basicrt {
+namespace {
+
+Vec3f normalized(Vec3f a) {
+  const float size = length(a);
+  return size > 0 ? a / size : Vec3f(0.0f);
+}
+
+float side(const Evaluator& in) { return in.point.is_backfacing ? -1.0f : 1.0f; }
+Vec3f viewed_normal(const Evaluator& in) { return in.point.shading_normal * side(in); }
+
+Vec3f object_position(const Evaluator& in) {
+  const Placement* placement = in.context.placement;
+  return placement ? Vec3f(placement->world_to_object.point(Vec3d(in.point.position))) : in.point.position;
+}
+
+// In the mesh's texture space, which Blender lets run from 0 to 1 over the undeformed mesh.
+Vec3f generated(const Evaluator& in) {
+  const Vec3f place = object_position(in);
+  if (!in.context.mesh) return place * 0.5f + Vec3f(0.5f);
+  const Vec3f size = in.context.mesh->texture_space_size, from = place - in.context.mesh->texture_space_min;
+  return {size.x != 0 ? from.x / size.x : 0, size.y != 0 ? from.y / size.y : 0, size.z != 0 ? from.z / size.z : 0};
+}
+
+Vec3f camera_position(const Evaluator& in) {
+  return in.context.world_to_camera ? in.context.world_to_camera->point(in.point.position) : in.point.position;
+}
+
+Vec3f mirrored(Vec3f normal, Vec3f wo) { return normal * (2 * dot(normal, wo)) - wo; }
+
+Vec3f flag(bool is_set) { return Vec3f(is_set ? 1.0f : 0.0f); }
+Vec3f number(float value) { return Vec3f(value); }
+
+// Dielectric reflectance; of no light behind.
+float fresnel(float cosine, float eta) {
+  const float c = std::abs(cosine), g_squared = eta * eta - 1 + c * c;
+  if (g_squared <= 0) return 1;
+  const float g = std::sqrt(g_squared), a = (g - c) / (g + c), b = ((g + c) * c - 1) / ((g - c) * c + 1);
+  return 0.5f * a * a * (1 + b * b);
+}
+
+Vec3f interpolate(const MeshAttribute& attribute, const Mesh& mesh, const SurfacePoint& point) {
+  const std::uint32_t triangle = point.primitive;
+  if (attribute.domain == AttributeDomain::face) return attribute.values[triangle];
+  const auto value = [&](std::uint32_t corner) {
+    const bool is_per_corner = attribute.domain == AttributeDomain::corner;
+    return attribute.values[is_per_corner ? triangle * 3 + corner : mesh.triangles[triangle][corner]];
+  };
+  const Vec2f share = point.barycentrics;
+  return value(0) * (1 - share.x - share.y) + value(1) * share.x + value(2) * share.y;
+}
+
+}  // namespace
+
+Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
+  const SurfacePoint& point = in.point;
+  const ShadingContext& context = in.context;
+  const auto is_ray = [&](std::uint32_t kinds) { return flag((context.ray_kinds & kinds) != 0); };
+  const ObjectInfo object = context.object ? *context.object : ObjectInfo{};
+  switch (node.value) {
+    case SurfaceValue::position:
+      return point.position;
+    case SurfaceValue::normal:
+      return viewed_normal(in);
+    case SurfaceValue::true_normal:
+      return point.geometric_normal * side(in);
+    case SurfaceValue::incoming:
+      return in.wo;
+    case SurfaceValue::parametric:
+      return {1 - point.barycentrics.x - point.barycentrics.y, point.barycentrics.x, 0};
+    case SurfaceValue::backfacing:
+      return flag(point.is_backfacing);
+    case SurfaceValue::uv:
+      return {point.uv.x, point.uv.y, 0};
+    case SurfaceValue::generated:
+      return generated(in);
+    case SurfaceValue::object_position:
+      return object_position(in);
+    case SurfaceValue::object_normal:
+      return context.placement
+                 ? normalized(Vec3f(context.placement->object_to_world.transposed_vector(Vec3d(viewed_normal(in)))))
+                 : viewed_normal(in);
+    case SurfaceValue::camera_position:
+      return camera_position(in);
+    case SurfaceValue::reflection:
+      return mirrored(viewed_normal(in), in.wo);
+    case SurfaceValue::tangent:
+      return point.derivatives ? normalized(point.derivatives->dpdu) : Vec3f(0.0f);
+    case SurfaceValue::object_location:
+      return context.placement ? Vec3f(context.placement->object_to_world.column(3)) : Vec3f(0.0f);
+    case SurfaceValue::object_color:
+      return object.color;
+    case SurfaceValue::object_index:
+      return number(object.pass_index);
+    case SurfaceValue::object_random:
+      return number(object.random);
+    case SurfaceValue::material_index:
+      return number(context.material_index);
+    case SurfaceValue::view_vector:
+      return normalized(camera_position(in));
+    case SurfaceValue::view_depth:
+      return number(std::abs(camera_position(in).z));
+    case SurfaceValue::view_distance:
+      return number(length(camera_position(in)));
+    case SurfaceValue::is_camera_ray:
+      return is_ray(ray_camera);
+    case SurfaceValue::is_shadow_ray:
+      return is_ray(ray_shadow);
+    case SurfaceValue::is_diffuse_ray:
+      return is_ray(ray_diffuse);
+    case SurfaceValue::is_glossy_ray:
+      return is_ray(ray_glossy);
+    case SurfaceValue::is_transmission_ray:
+      return is_ray(ray_transmission);
+    case SurfaceValue::is_reflection_ray:
+      return is_ray(ray_diffuse | ray_glossy);
+    case SurfaceValue::is_volume_ray:
+      return is_ray(ray_volume);
+    case SurfaceValue::ray_length:
+      return number(point.t);
+    case SurfaceValue::ray_depth:
+      return number(static_cast<float>(context.bounces));
+    case SurfaceValue::diffuse_depth:
+      return number(static_cast<float>(context.diffuse_bounces));
+    case SurfaceValue::glossy_depth:
+      return number(static_cast<float>(context.glossy_bounces));
+    case SurfaceValue::transmission_depth:
+      return number(static_cast<float>(context.transmission_bounces));
+    case SurfaceValue::transparent_depth:
+      return number(static_cast<float>(context.transparent_bounces));
+  }
+  return {};
+}
+
+Vec3f eval(const AttributeOperation& node, const Evaluator& in) {
+  const Mesh* mesh = in.context.mesh;
+  if (!mesh) return Vec3f(0.0f);
+  const auto found = std::ranges::find(mesh->attributes, node.name, &MeshAttribute::name);
+  return found == mesh->attributes.end() ? Vec3f(0.0f) : interpolate(*found, *mesh, in.point);
+}
+
+Vec3f eval(const FresnelOperation& node, const Evaluator& in) {
+  Vec3f normal = in(node.normal);
+  if (length_squared(normal) == 0) normal = viewed_normal(in);
+  const float cosine = dot(in.wo, normal), value = in(node.value);
+  const bool is_back = in.point.is_backfacing;
+  switch (node.of) {
+    case FresnelKind::fresnel: {
+      const float ior = std::max(value, 1e-5f);
+      return Vec3f(fresnel(cosine, is_back ? 1 / ior : ior));
+    }
+    case FresnelKind::layer_fresnel: {
+      const float eta = std::max(1 - value, 1e-5f);
+      return Vec3f(fresnel(cosine, is_back ? eta : 1 / eta));
+    }
+    case FresnelKind::facing:
+      break;
+  }
+  const float blend = std::clamp(value, 0.0f, 1 - 1e-5f), facing = std::abs(cosine);
+  if (blend == 0.5f) return Vec3f(1 - facing);
+  return Vec3f(1 - std::pow(facing, blend < 0.5f ? 2 * blend : 0.5f / (1 - blend)));
+}
+
+Vec3f eval(const NormalMapOperation& node, const Evaluator& in) {
+  const Vec3f encoded = in(node.color) * 2 - Vec3f(1.0f);
+  const float strength = std::max(in(node.strength), 0.0f);
+  const Vec3f own = in.point.shading_normal;
+  Vec3f normal;
+  if (node.space == NormalMapSpace::tangent) {
+    const auto& derivatives = in.point.derivatives;
+    if (!derivatives || length_squared(derivatives->dpdu) == 0) return own * side(in);
+    const Vec3f tangent = normalized(derivatives->dpdu - own * dot(own, derivatives->dpdu));
+    const Vec3f across = cross(own, tangent);
+    const float hand = dot(across, derivatives->dpdv) < 0 ? -1.0f : 1.0f;
+    // Turned towards the surface's own normal before the vectors are added up.
+    normal = normalized(tangent * (encoded.x * strength) + across * (hand * encoded.y * strength) +
+                        own * lerp(1.0f, encoded.z, std::min(strength, 1.0f)));
+  } else {
+    normal = encoded;
+    if (node.space == NormalMapSpace::object && in.context.placement)
+      normal = Vec3f(in.context.placement->world_to_object.transposed_vector(Vec3d(encoded)));
+    normal = normalized(normal);
+    if (strength != 1) normal = normalized(own + (normal - own) * strength);
+  }
+  return (length_squared(normal) == 0 ? own : normal) * side(in);
+}
+
+Vec3f bumped_normal(const BumpOperation& node, const Evaluator& in, const HeightChange& height) {
+  Vec3f normal = in(node.normal);
+  if (length_squared(normal) == 0) normal = viewed_normal(in);
+  const Vec3f along_x = cross(height.dpdy, normal), along_y = cross(normal, height.dpdx);
+  const float area = dot(height.dpdx, along_x);
+  const Vec3f gradient = along_x * (height.at_dx - height.here) + along_y * (height.at_dy - height.here);
+  const float scale = in(node.distance) * (node.is_inverted ? -1.0f : 1.0f),
+              strength = std::max(in(node.strength), 0.0f);
+  const float sign = area < 0 ? -1.0f : 1.0f;
+  const Vec3f raised = normalized(normal * std::abs(area) - gradient * (sign * scale));
+  const Vec3f blended = normalized(raised * strength + normal * (1 - strength));
+  return length_squared(blended) == 0 ? normal : blended;
+}
+
+}  // namespace basicrt

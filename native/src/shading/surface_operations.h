@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a program reads of the surface, the object and the ray; and normals made of it.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "base/describe.h"
+#include "shading/inputs.h"
+
+namespace basicrt {
+
+class Evaluator;
+
+enum class SurfaceValue : std::uint8_t {
+  position,
+  normal,
+  true_normal,
+  incoming,
+  parametric,
+  backfacing,
+  uv,
+  generated,
+  object_position,
+  object_normal,
+  camera_position,
+  reflection,
+  tangent,
+  object_location,
+  object_color,
+  object_index,
+  object_random,
+  material_index,
+  view_vector,
+  view_depth,
+  view_distance,
+  is_camera_ray,
+  is_shadow_ray,
+  is_diffuse_ray,
+  is_glossy_ray,
+  is_transmission_ray,
+  is_reflection_ray,
+  is_volume_ray,
+  ray_length,
+  ray_depth,
+  diffuse_depth,
+  glossy_depth,
+  transmission_depth,
+  transparent_depth
+};
+template <>
+inline constexpr std::array enum_names<SurfaceValue> = std::to_array<std::string_view>({"position",
+                                                                                        "normal",
+                                                                                        "true_normal",
+                                                                                        "incoming",
+                                                                                        "parametric",
+                                                                                        "backfacing",
+                                                                                        "uv",
+                                                                                        "generated",
+                                                                                        "object_position",
+                                                                                        "object_normal",
+                                                                                        "camera_position",
+                                                                                        "reflection",
+                                                                                        "tangent",
+                                                                                        "object_location",
+                                                                                        "object_color",
+                                                                                        "object_index",
+                                                                                        "object_random",
+                                                                                        "material_index",
+                                                                                        "view_vector",
+                                                                                        "view_depth",
+                                                                                        "view_distance",
+                                                                                        "is_camera_ray",
+                                                                                        "is_shadow_ray",
+                                                                                        "is_diffuse_ray",
+                                                                                        "is_glossy_ray",
+                                                                                        "is_transmission_ray",
+                                                                                        "is_reflection_ray",
+                                                                                        "is_volume_ray",
+                                                                                        "ray_length",
+                                                                                        "ray_depth",
+                                                                                        "diffuse_depth",
+                                                                                        "glossy_depth",
+                                                                                        "transmission_depth",
+                                                                                        "transparent_depth"});
+
+struct SurfaceOperation {
+  SurfaceValue value = SurfaceValue::position;
+
+  bool operator==(const SurfaceOperation&) const = default;
+  static constexpr std::string_view kind = "surface";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return std::tuple{field("value", &SurfaceOperation::value, "what of the point: see docs/scene_format.md")};
+  }
+};
+
+// A named attribute of the mesh, interpolated; black where it has none of that name.
+struct AttributeOperation {
+  std::string name;
+
+  bool operator==(const AttributeOperation&) const = default;
+  static constexpr std::string_view kind = "attribute";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return std::tuple{field("name", &AttributeOperation::name, "of the mesh's attribute")};
+  }
+};
+
+enum class FresnelKind : std::uint8_t { fresnel, layer_fresnel, facing };
+template <>
+inline constexpr std::array enum_names<FresnelKind> =
+    std::to_array<std::string_view>({"fresnel", "layer_fresnel", "facing"});
+
+struct FresnelOperation {
+  FresnelKind of = FresnelKind::fresnel;
+  NumberInput value = 1.5f;
+  ColorInput normal{Vec3f(0.0f)};
+
+  bool operator==(const FresnelOperation&) const = default;
+  static constexpr std::string_view kind = "fresnel";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return std::tuple{field("of", &FresnelOperation::of, "fresnel, or Blender's Layer Weight: layer_fresnel or facing"),
+                      field("value", &FresnelOperation::value, "the refractive index, or the layer weight's blend"),
+                      field("normal", &FresnelOperation::normal, "world space; zero is the surface's own")};
+  }
+};
+
+enum class NormalMapSpace : std::uint8_t { tangent, object, world };
+template <>
+inline constexpr std::array enum_names<NormalMapSpace> =
+    std::to_array<std::string_view>({"tangent", "object", "world"});
+
+// A normal in world space from a colour; tangents are those of uv.
+struct NormalMapOperation {
+  ColorInput color{Vec3f(0.5f, 0.5f, 1.0f)};
+  NumberInput strength = 1.0f;
+  NormalMapSpace space = NormalMapSpace::tangent;
+
+  bool operator==(const NormalMapOperation&) const = default;
+  static constexpr std::string_view kind = "normal_map";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return std::tuple{field("color", &NormalMapOperation::color, "the normal, halved and moved by a half"),
+                      field("strength", &NormalMapOperation::strength, "0 is the surface's own normal", at_least(0)),
+                      field("space", &NormalMapOperation::space, "tangent, object or world")};
+  }
+};
+
+// The normal of the surface, in world space, were it raised by a height (Blinn 1978, "Simulation of wrinkled surfaces";
+// Mikkelsen 2010, "Bump mapping unparametrized surfaces on the GPU").
+struct BumpOperation {
+  NumberInput height = 1.0f;
+  NumberInput strength = 1.0f, distance = 1.0f;
+  ColorInput normal{Vec3f(0.0f)};
+  bool is_inverted = false;
+
+  bool operator==(const BumpOperation&) const = default;
+  static constexpr std::string_view kind = "bump";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return std::tuple{field("height", &BumpOperation::height, "an operation that gives metres over distance"),
+                      field("strength", &BumpOperation::strength, "0 is the normal as it was", at_least(0)),
+                      field("distance", &BumpOperation::distance, "multiplies the height"),
+                      field("normal", &BumpOperation::normal, "world space; zero is the surface's own"),
+                      field("invert", &BumpOperation::is_inverted, "bumps become dents")};
+  }
+};
+
+[[nodiscard]] Vec3f eval(const SurfaceOperation& node, const Evaluator& in);
+[[nodiscard]] Vec3f eval(const AttributeOperation& node, const Evaluator& in);
+[[nodiscard]] Vec3f eval(const FresnelOperation& node, const Evaluator& in);
+[[nodiscard]] Vec3f eval(const NormalMapOperation& node, const Evaluator& in);
+
+// How the height changes: its values here and at two points beside, which lie at dpdx and dpdy from here.
+struct HeightChange {
+  float here, at_dx, at_dy;
+  Vec3f dpdx, dpdy;
+};
+[[nodiscard]] Vec3f bumped_normal(const BumpOperation& node, const Evaluator& in, const HeightChange& height);
+
+// Whether a SurfacePoint must have its derivatives for this.
+[[nodiscard]] inline bool needs_derivatives(const SurfaceOperation& node) {
+  return node.value == SurfaceValue::tangent;
+}
+[[nodiscard]] inline bool needs_derivatives(const NormalMapOperation& node) {
+  return node.space == NormalMapSpace::tangent;
+}
+[[nodiscard]] inline bool needs_derivatives(const auto& /*others*/) { return false; }
+
+}  // namespace basicrt
