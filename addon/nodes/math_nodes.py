@@ -20,7 +20,7 @@ def math(of: Operands, _output: str) -> Value:
     return of.add(
         "number",
         basicrt.MathOperation(
-            operation=of.node.operation.lower(),
+            operation=of.node.operation.lower().replace("fract", "fraction"),
             a=of.number("Value"),
             b=of.number("Value_001"),
             c=of.number("Value_002"),
