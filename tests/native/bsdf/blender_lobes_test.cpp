@@ -209,6 +209,39 @@ TEST(ThinFilm, has_the_luminance_of_the_exact_spectrum) {
     }
 }
 
+TEST(Caustics, of_blender_s_glossy_lobes_can_be_left_out) {
+  const Vec3f wo = direction_at(30), across = direction_at(35, 210), through = direction_at(160, 210);
+  const auto without_reflection = [&](const ShaderNode& node) {
+    Bsdf bsdf = test::make_bsdf(test::make_material(node), test::make_point(), wo);
+    bsdf.remove_glossy(true, false);
+    return bsdf;
+  };
+  EXPECT_TRUE(without_reflection(ToonShader{.component = ToonComponent::glossy}).is_empty());
+  EXPECT_TRUE(without_reflection(GlossyShader{.distribution = FacetDistribution::ashikhmin_shirley}).is_empty());
+  EXPECT_TRUE(without_reflection(MetallicShader{}).is_empty());
+  EXPECT_FALSE(without_reflection(SheenShader{}).is_empty());
+  EXPECT_FALSE(without_reflection(DiffuseShader{.is_two_sided = true, .roughness = 0.5f}).is_empty());
+  GlassShader glass{.roughness = 0.5f};
+  glass.thin_film_thickness = 400;
+  const Bsdf bsdf = without_reflection(glass);
+  EXPECT_EQ(bsdf.eval(wo, across).value.x, 0);
+  EXPECT_GT(bsdf.eval(wo, through).value.x, 0);
+}
+
+TEST(Roughening, reaches_blender_s_glossy_lobes) {
+  const Vec3f wo = direction_at(30);
+  GlassShader glass{.roughness = 0.1f};
+  glass.thin_film_thickness = 400;
+  Bsdf bsdf = test::make_bsdf(test::make_material(glass), test::make_point(), wo);
+  bsdf.roughen(0.3f);
+  EXPECT_FLOAT_EQ(bsdf.transmission_alpha(), 0.3f);
+  const GlossyShader mirror{.roughness = 0.01f, .distribution = FacetDistribution::ashikhmin_shirley};
+  Bsdf rough = test::make_bsdf(test::make_material(mirror), test::make_point(), wo);
+  EXPECT_TRUE(rough.has_only_deltas());
+  rough.roughen(0.3f);
+  EXPECT_FALSE(rough.has_only_deltas());
+}
+
 TEST(RadialTangents, go_around_the_axes_in_sizes_of_the_box) {
   SurfacePoint point = test::make_point();
   point.position = {3, 1, 0};
