@@ -38,6 +38,7 @@ __all__: list[str] = [
     "Material",
     "MaterialTable",
     "Mesh",
+    "MetallicShader",
     "MixShader",
     "MultipleScatteringSky",
     "OrthographicCamera",
@@ -54,6 +55,7 @@ __all__: list[str] = [
     "SceneWarning",
     "Session",
     "ShapeTable",
+    "SheenShader",
     "SingleScatteringSky",
     "Sphere",
     "SpotLight",
@@ -62,6 +64,8 @@ __all__: list[str] = [
     "TextureTable",
     "Tile",
     "TileIterator",
+    "ToonShader",
+    "TranslucentShader",
     "TransparentShader",
     "VolumeShader",
     "load_scene",
@@ -325,10 +329,11 @@ class ImageTexture:
 
 class DiffuseShader:
     """
-    Lambert's reflection.
+    Diffuse reflection, Lambert's or by a rough surface.
 
     color: reflectance; in [0, 1]
     twosided: whether the back reflects too
+    roughness: 0 is Lambert's reflection, above that Oren and Nayar's, which keeps all light; in [0, 1]
     """
     def __init__(
         self,
@@ -338,6 +343,7 @@ class DiffuseShader:
             0.8,
         ),
         twosided: bool = False,
+        roughness: float = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -349,6 +355,13 @@ class DiffuseShader:
     def color(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
     ) -> None: ...
+    @property
+    def roughness(self) -> float:
+        """
+        0 is Lambert's reflection, above that Oren and Nayar's, which keeps all light; in [0, 1]
+        """
+    @roughness.setter
+    def roughness(self, value: float) -> None: ...
     @property
     def twosided(self) -> bool:
         """
@@ -363,7 +376,10 @@ class GlossyShader:
 
     color: reflectance; in [0, 1]
     roughness: the microfacets' alpha is its square; in [0, 1]
-    distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
+    distribution: how the microfacets are turned: multi_ggx, ggx, beckmann or ashikhmin_shirley
+    anisotropy: above 0 smoother along the tangent, below 0 across; in [-1, 1]
+    rotation: of that about the normal, in whole turns
+    tangent: what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
     """
     def __init__(
         self,
@@ -374,8 +390,18 @@ class GlossyShader:
         ),
         roughness: float = 0.5,
         distribution: str = "multi_ggx",
+        anisotropy: float = 0.0,
+        rotation: float = 0.0,
+        tangent: str = "uv",
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def anisotropy(self) -> float:
+        """
+        above 0 smoother along the tangent, below 0 across; in [-1, 1]
+        """
+    @anisotropy.setter
+    def anisotropy(self, value: float) -> None: ...
     @property
     def color(self) -> tuple[float, float, float] | TextureRef:
         """
@@ -388,10 +414,17 @@ class GlossyShader:
     @property
     def distribution(self) -> str:
         """
-        how the microfacets are turned: multi_ggx, ggx or beckmann
+        how the microfacets are turned: multi_ggx, ggx, beckmann or ashikhmin_shirley
         """
     @distribution.setter
     def distribution(self, value: str) -> None: ...
+    @property
+    def rotation(self) -> float:
+        """
+        of that about the normal, in whole turns
+        """
+    @rotation.setter
+    def rotation(self, value: float) -> None: ...
     @property
     def roughness(self) -> float:
         """
@@ -399,6 +432,13 @@ class GlossyShader:
         """
     @roughness.setter
     def roughness(self, value: float) -> None: ...
+    @property
+    def tangent(self) -> str:
+        """
+        what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+        """
+    @tangent.setter
+    def tangent(self, value: str) -> None: ...
 
 class ConductorShader:
     """
@@ -483,6 +523,262 @@ class ConductorShader:
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
     ) -> None: ...
 
+class MetallicShader:
+    """
+    A metal by two colours or by measured refractive indices.
+
+    model: f82: by base_color and edge_tint; physical_conductor: by ior and extinction
+    base_color: reflectance where it is met head on; in [0, 1]
+    edge_tint: multiplies the reflectance near grazing incidence; in [0, 1]
+    ior: refractive index of the metal; at least 0
+    extinction: of the metal; at least 0
+    roughness: the microfacets' alpha is its square; in [0, 1]
+    distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
+    anisotropy: above 0 smoother across the tangent; in [0, 1]
+    rotation: of that about the normal, in whole turns
+    tangent: what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+    thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
+    thin_film_ior: refractive index of the film; above 0
+    """
+    def __init__(
+        self,
+        model: str = "f82",
+        base_color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.617,
+            0.577,
+            0.54,
+        ),
+        edge_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.695,
+            0.726,
+            0.77,
+        ),
+        ior: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (2.757, 2.513, 2.231),
+        extinction: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            3.867,
+            3.404,
+            3.009,
+        ),
+        roughness: float = 0.5,
+        distribution: str = "multi_ggx",
+        anisotropy: float = 0.0,
+        rotation: float = 0.0,
+        tangent: str = "uv",
+        thin_film_thickness: float = 0.0,
+        thin_film_ior: float = 1.33,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def anisotropy(self) -> float:
+        """
+        above 0 smoother across the tangent; in [0, 1]
+        """
+    @anisotropy.setter
+    def anisotropy(self, value: float) -> None: ...
+    @property
+    def base_color(self) -> tuple[float, float, float] | TextureRef:
+        """
+        reflectance where it is met head on; in [0, 1]
+        """
+    @base_color.setter
+    def base_color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def distribution(self) -> str:
+        """
+        how the microfacets are turned: multi_ggx, ggx or beckmann
+        """
+    @distribution.setter
+    def distribution(self, value: str) -> None: ...
+    @property
+    def edge_tint(self) -> tuple[float, float, float] | TextureRef:
+        """
+        multiplies the reflectance near grazing incidence; in [0, 1]
+        """
+    @edge_tint.setter
+    def edge_tint(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def extinction(self) -> tuple[float, float, float]:
+        """
+        of the metal; at least 0
+        """
+    @extinction.setter
+    def extinction(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+    @property
+    def ior(self) -> tuple[float, float, float]:
+        """
+        refractive index of the metal; at least 0
+        """
+    @ior.setter
+    def ior(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    @property
+    def model(self) -> str:
+        """
+        f82: by base_color and edge_tint; physical_conductor: by ior and extinction
+        """
+    @model.setter
+    def model(self, value: str) -> None: ...
+    @property
+    def rotation(self) -> float:
+        """
+        of that about the normal, in whole turns
+        """
+    @rotation.setter
+    def rotation(self, value: float) -> None: ...
+    @property
+    def roughness(self) -> float:
+        """
+        the microfacets' alpha is its square; in [0, 1]
+        """
+    @roughness.setter
+    def roughness(self, value: float) -> None: ...
+    @property
+    def tangent(self) -> str:
+        """
+        what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+        """
+    @tangent.setter
+    def tangent(self, value: str) -> None: ...
+    @property
+    def thin_film_ior(self) -> float:
+        """
+        refractive index of the film; above 0
+        """
+    @thin_film_ior.setter
+    def thin_film_ior(self, value: float) -> None: ...
+    @property
+    def thin_film_thickness(self) -> float:
+        """
+        of a thin film on it, nanometres; 0 is none; at least 0
+        """
+    @thin_film_thickness.setter
+    def thin_film_thickness(self, value: float) -> None: ...
+
+class TranslucentShader:
+    """
+    Diffuse transmission.
+
+    color: what goes through, spread evenly; in [0, 1]
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.8,
+            0.8,
+            0.8,
+        ),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef:
+        """
+        what goes through, spread evenly; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+
+class SheenShader:
+    """
+    Light that fibres scatter at grazing angles.
+
+    color: tint; in [0, 1]
+    roughness: how far from grazing it is seen; in [0, 1]
+    model: microfiber or ashikhmin
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.8,
+            0.8,
+            0.8,
+        ),
+        roughness: float = 0.5,
+        model: str = "microfiber",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef:
+        """
+        tint; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def model(self) -> str:
+        """
+        microfiber or ashikhmin
+        """
+    @model.setter
+    def model(self, value: str) -> None: ...
+    @property
+    def roughness(self) -> float:
+        """
+        how far from grazing it is seen; in [0, 1]
+        """
+    @roughness.setter
+    def roughness(self, value: float) -> None: ...
+
+class ToonShader:
+    """
+    A spot of even brightness.
+
+    color: tint; in [0, 1]
+    component: diffuse: around the normal; glossy: the reflection
+    size: of the spot, in right angles; in [0, 1]
+    smooth: width of the soft rim, in right angles; in [0, 1]
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.8,
+            0.8,
+            0.8,
+        ),
+        component: str = "diffuse",
+        size: float = 0.5,
+        smooth: float = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef:
+        """
+        tint; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def component(self) -> str:
+        """
+        diffuse: around the normal; glossy: the reflection
+        """
+    @component.setter
+    def component(self, value: str) -> None: ...
+    @property
+    def size(self) -> float:
+        """
+        of the spot, in right angles; in [0, 1]
+        """
+    @size.setter
+    def size(self, value: float) -> None: ...
+    @property
+    def smooth(self) -> float:
+        """
+        width of the soft rim, in right angles; in [0, 1]
+        """
+    @smooth.setter
+    def smooth(self, value: float) -> None: ...
+
 class RefractionShader:
     """
     Refraction without Fresnel reflection.
@@ -553,6 +849,8 @@ class GlassShader:
     eta: refractive index inside over outside; above 0
     roughness: the microfacets' alpha is its square; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
+    thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
+    thin_film_ior: refractive index of the film; above 0
     """
     def __init__(
         self,
@@ -561,6 +859,8 @@ class GlassShader:
         eta: float = 1.5,
         roughness: float = 0.0,
         distribution: str = "multi_ggx",
+        thin_film_thickness: float = 0.0,
+        thin_film_ior: float = 1.33,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -602,6 +902,20 @@ class GlassShader:
         """
     @roughness.setter
     def roughness(self, value: float) -> None: ...
+    @property
+    def thin_film_ior(self) -> float:
+        """
+        refractive index of the film; above 0
+        """
+    @thin_film_ior.setter
+    def thin_film_ior(self, value: float) -> None: ...
+    @property
+    def thin_film_thickness(self) -> float:
+        """
+        of a thin film on it, nanometres; 0 is none; at least 0
+        """
+    @thin_film_thickness.setter
+    def thin_film_thickness(self, value: float) -> None: ...
 
 class TransparentShader:
     """
@@ -680,7 +994,7 @@ class HoldoutShader:
 
 class PrincipledShader:
     """
-    Blender's Principled BSDF with constant values.
+    Blender's Principled BSDF but for subsurface scattering.
 
     base_color: reflectance of diffuse and metal, tint of glass; in [0, 1]
     metallic: 0 a dielectric, 1 a metal; in [0, 1]
@@ -692,6 +1006,20 @@ class PrincipledShader:
     emission_strength: multiplies the emission; at least 0
     alpha: opacity; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
+    diffuse_roughness: as of the diffuse shader; in [0, 1]
+    specular_tint: of a dielectric's reflection where it is met head on, of a metal's near grazing incidence; in [0, 1]
+    anisotropic: above 0 smoother across the tangent; in [0, 1]
+    anisotropic_rotation: of that about the normal, in whole turns
+    tangent: what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+    sheen_weight: of the fibres on top of all; in [0, 1]
+    sheen_roughness: as of the sheen shader; in [0, 1]
+    sheen_tint: colour of the fibres; in [0, 1]
+    coat_weight: of the clear coat beneath the sheen; in [0, 1]
+    coat_roughness: of the coat; in [0, 1]
+    coat_ior: refractive index of the coat; at least 1
+    coat_tint: what the coat lets through of light from straight above; in [0, 1]
+    thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
+    thin_film_ior: refractive index of the film; above 0
     """
     def __init__(
         self,
@@ -713,6 +1041,32 @@ class PrincipledShader:
         emission_strength: float = 1.0,
         alpha: float | TextureRef = 1.0,
         distribution: str = "multi_ggx",
+        diffuse_roughness: float = 0.0,
+        specular_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        anisotropic: float = 0.0,
+        anisotropic_rotation: float = 0.0,
+        tangent: str = "uv",
+        sheen_weight: float = 0.0,
+        sheen_roughness: float = 0.5,
+        sheen_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        coat_weight: float = 0.0,
+        coat_roughness: float = 0.03,
+        coat_ior: float = 1.5,
+        coat_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        thin_film_thickness: float = 0.0,
+        thin_film_ior: float = 1.33,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -723,6 +1077,20 @@ class PrincipledShader:
     @alpha.setter
     def alpha(self, value: float | TextureRef) -> None: ...
     @property
+    def anisotropic(self) -> float:
+        """
+        above 0 smoother across the tangent; in [0, 1]
+        """
+    @anisotropic.setter
+    def anisotropic(self, value: float) -> None: ...
+    @property
+    def anisotropic_rotation(self) -> float:
+        """
+        of that about the normal, in whole turns
+        """
+    @anisotropic_rotation.setter
+    def anisotropic_rotation(self, value: float) -> None: ...
+    @property
     def base_color(self) -> tuple[float, float, float] | TextureRef:
         """
         reflectance of diffuse and metal, tint of glass; in [0, 1]
@@ -731,6 +1099,43 @@ class PrincipledShader:
     def base_color(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
     ) -> None: ...
+    @property
+    def coat_ior(self) -> float:
+        """
+        refractive index of the coat; at least 1
+        """
+    @coat_ior.setter
+    def coat_ior(self, value: float) -> None: ...
+    @property
+    def coat_roughness(self) -> float:
+        """
+        of the coat; in [0, 1]
+        """
+    @coat_roughness.setter
+    def coat_roughness(self, value: float) -> None: ...
+    @property
+    def coat_tint(self) -> tuple[float, float, float] | TextureRef:
+        """
+        what the coat lets through of light from straight above; in [0, 1]
+        """
+    @coat_tint.setter
+    def coat_tint(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def coat_weight(self) -> float:
+        """
+        of the clear coat beneath the sheen; in [0, 1]
+        """
+    @coat_weight.setter
+    def coat_weight(self, value: float) -> None: ...
+    @property
+    def diffuse_roughness(self) -> float:
+        """
+        as of the diffuse shader; in [0, 1]
+        """
+    @diffuse_roughness.setter
+    def diffuse_roughness(self, value: float) -> None: ...
     @property
     def distribution(self) -> str:
         """
@@ -776,12 +1181,65 @@ class PrincipledShader:
     @roughness.setter
     def roughness(self, value: float) -> None: ...
     @property
+    def sheen_roughness(self) -> float:
+        """
+        as of the sheen shader; in [0, 1]
+        """
+    @sheen_roughness.setter
+    def sheen_roughness(self, value: float) -> None: ...
+    @property
+    def sheen_tint(self) -> tuple[float, float, float] | TextureRef:
+        """
+        colour of the fibres; in [0, 1]
+        """
+    @sheen_tint.setter
+    def sheen_tint(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def sheen_weight(self) -> float:
+        """
+        of the fibres on top of all; in [0, 1]
+        """
+    @sheen_weight.setter
+    def sheen_weight(self, value: float) -> None: ...
+    @property
     def specular_ior_level(self) -> float:
         """
         0.5 leaves the index's reflectance as it is; in [0, 1]
         """
     @specular_ior_level.setter
     def specular_ior_level(self, value: float) -> None: ...
+    @property
+    def specular_tint(self) -> tuple[float, float, float] | TextureRef:
+        """
+        of a dielectric's reflection where it is met head on, of a metal's near grazing incidence; in [0, 1]
+        """
+    @specular_tint.setter
+    def specular_tint(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def tangent(self) -> str:
+        """
+        what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+        """
+    @tangent.setter
+    def tangent(self, value: str) -> None: ...
+    @property
+    def thin_film_ior(self) -> float:
+        """
+        refractive index of the film; above 0
+        """
+    @thin_film_ior.setter
+    def thin_film_ior(self, value: float) -> None: ...
+    @property
+    def thin_film_thickness(self) -> float:
+        """
+        of a thin film on it, nanometres; 0 is none; at least 0
+        """
+    @thin_film_thickness.setter
+    def thin_film_thickness(self, value: float) -> None: ...
     @property
     def transmission(self) -> float:
         """
@@ -964,7 +1422,11 @@ class Material:
         | PrincipledShader
         | VolumeShader
         | MixShader
-        | AddShader,
+        | AddShader
+        | TranslucentShader
+        | MetallicShader
+        | SheenShader
+        | ToonShader,
     ) -> int:
         """
         Appends a node and returns its index.
@@ -985,6 +1447,10 @@ class Material:
         | VolumeShader
         | MixShader
         | AddShader
+        | TranslucentShader
+        | MetallicShader
+        | SheenShader
+        | ToonShader
     ]:
         """
         Copies of the nodes.

@@ -115,9 +115,6 @@ class Bsdf {
   // The alpha of the smoothest interface that light is transmitted through; infinite where there is none.
   [[nodiscard]] float transmission_alpha() const;
 
-  // The frame's tangent matters only to stretched lobes.
-  void set_frame(const Frame& shading_frame) { frame_ = shading_frame; }
-
  private:
   template <class OneLobe>
   static constexpr bool is_reflection = requires { OneLobe::reflection_kind; };

@@ -36,8 +36,9 @@ bool is_transparent(const Material& material) {
 
 bool needs_derivatives(const Material& material) {
   bool result = false;
-  const Overloaded leaf{[&](const ConductorShader& node, float) { result |= node.is_stretched(); },
-                        [](const auto& /*round*/, float) {}};
+  const auto leaf = [&]<class Node>(const Node& node, float) {
+    if constexpr (requires { node.is_stretched(); }) result |= node.is_stretched();
+  };
   for_each_leaf(material, leaf);
   return result;
 }
@@ -55,7 +56,9 @@ Color emitted_radiance(const Material& material, SurfaceSide side) {
                             add(node.radiance, node.strength * weight);
                         },
                         [&](const PrincipledShader& node, float weight) {
-                          varies = varies || node.alpha.texture.is_valid();
+                          // What is above lets through another share in each direction.
+                          varies =
+                              varies || node.alpha.texture.is_valid() || node.sheen_weight > 0 || node.coat_weight > 0;
                           add(node.emission, node.emission_strength * node.alpha.constant * weight);
                         },
                         [](const auto& /*dark*/, float) {}};
@@ -79,8 +82,8 @@ int count_lobes(const PrincipledShader& node) {
   const bool is_varied = node.alpha.texture.is_valid();
   if (!is_varied && node.alpha.constant == 0) return 1;
   const bool is_dielectric = node.metallic < 1, is_opaque = is_dielectric && node.transmission < 1;
-  return (is_varied || node.alpha.constant < 1) + (node.metallic > 0) + (is_dielectric && node.transmission > 0) +
-         2 * is_opaque;
+  return (is_varied || node.alpha.constant < 1) + (node.sheen_weight > 0) + (node.coat_weight > 0) +
+         (node.metallic > 0) + (is_dielectric && node.transmission > 0) + 2 * is_opaque;
 }
 
 }  // namespace

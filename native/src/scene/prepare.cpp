@@ -208,6 +208,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     PreparedScene::PreparedInstance& added = prepared.instances.back();
     for (const std::uint32_t material : added.materials)
       added.needs_derivatives = added.needs_derivatives || needs_derivatives(prepared.materials[material].material);
+    if (added.needs_derivatives) added.box = bounds(prepared.shapes[added.shape]);
     traced.push_back({.shape = instance.shape.index,
                       .object_to_world = placement.object_to_world,
                       .world_to_object = placement.world_to_object,
