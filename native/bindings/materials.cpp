@@ -42,6 +42,7 @@ void register_materials(py::module_& m) {
       .def(py::init([](std::string name) { return Material{.name = std::move(name), .nodes = {}}; }),
            py::arg("name") = "")
       .def_readwrite("name", &Material::name)
+      .def_readwrite("pass_index", &Material::pass_index, "for the pass Material Index")
       .def("add", &Material::add, py::arg("node"), "Appends a node and returns its index.")
       .def_property("surface", root_getter(&Material::surface), root_setter(&Material::surface),
                     "The index of the node that the surface shows; None is black and opaque, or, with a volume, "

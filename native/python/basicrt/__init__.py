@@ -64,10 +64,12 @@ from ._native import (
     TransparentShader,
     VolumeShader,
     look_at_camera,
+    merge_sums,
     native_version,
     passes,
 )
 from .images import read_exr, write_exr, write_png
+from .merging import merge
 from .ray_kinds import RayKind
 from .rendering import render
 from .scene_files import load_scene
@@ -129,6 +131,8 @@ __all__ = [
     "__version__",
     "load_scene",
     "look_at_camera",
+    "merge",
+    "merge_sums",
     "native_version",
     "passes",
     "read_exr",

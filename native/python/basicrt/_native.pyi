@@ -70,6 +70,7 @@ __all__: list[str] = [
     "VolumeShader",
     "load_scene",
     "look_at_camera",
+    "merge_sums",
     "native_version",
     "passes",
 ]
@@ -1455,6 +1456,13 @@ class Material:
         """
         Copies of the nodes.
         """
+    @property
+    def pass_index(self) -> int:
+        """
+        for the pass Material Index
+        """
+    @pass_index.setter
+    def pass_index(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def surface(self) -> int | None:
         """
@@ -3293,6 +3301,8 @@ class RenderSettings:
     border_width: pixels; 0 is the whole width; at least 0
     border_height: pixels; 0 is the whole height; at least 0
     samples: paths for each pixel, the most where sampling is adaptive or time limited; in [1, 16777216]
+    samples_from: the first of the samples to take, a multiple of 64; at least 0
+    samples_to: the end of the samples to take, a multiple of 64 or all; 0 is all; at least 0
     adaptive_threshold: the noise at which a pixel has enough samples; 0 gives every pixel all samples; in [0, 1]
     adaptive_min_samples: samples before the noise is looked at; 0 chooses by the threshold; in [0, 16777216]
     time_limit: seconds after which no more samples are started; 0 is no limit; at least 0
@@ -3302,6 +3312,9 @@ class RenderSettings:
     film_transparent_glass: where the film is transparent, so is the background seen through glass
     film_transparent_roughness: the largest alpha of microfacets that counts as such glass; in [0, 1]
     exposure: multiplies radiance; at least 0
+    mist_start: metres from the camera where the pass Mist begins; at least 0
+    mist_depth: metres from there to where the mist is complete; at least 0
+    mist_falloff: power of the share of that distance; above 0
     shutter_curve: how far the shutter is open at equally spaced times; none: wide open throughout; at least 0
     integrator: how light is computed
     max_bounces: scatterings after which a path ends; in [0, 1024]
@@ -3335,6 +3348,8 @@ class RenderSettings:
         border_width: int = 0,
         border_height: int = 0,
         samples: int = 64,
+        samples_from: int = 0,
+        samples_to: int = 0,
         adaptive_threshold: float = 0.0,
         adaptive_min_samples: int = 0,
         time_limit: float = 0.0,
@@ -3344,6 +3359,9 @@ class RenderSettings:
         film_transparent_glass: bool = False,
         film_transparent_roughness: float = 0.1,
         exposure: float = 1.0,
+        mist_start: float = 5.0,
+        mist_depth: float = 25.0,
+        mist_falloff: float = 2.0,
         shutter_curve: collections.abc.Iterable[float] = [],
         integrator: str = "path",
         max_bounces: int = 12,
@@ -3560,6 +3578,27 @@ class RenderSettings:
     @max_depth.setter
     def max_depth(self, value: int) -> None: ...
     @property
+    def mist_depth(self) -> float:
+        """
+        metres from there to where the mist is complete; at least 0
+        """
+    @mist_depth.setter
+    def mist_depth(self, value: float) -> None: ...
+    @property
+    def mist_falloff(self) -> float:
+        """
+        power of the share of that distance; above 0
+        """
+    @mist_falloff.setter
+    def mist_falloff(self, value: float) -> None: ...
+    @property
+    def mist_start(self) -> float:
+        """
+        metres from the camera where the pass Mist begins; at least 0
+        """
+    @mist_start.setter
+    def mist_start(self, value: float) -> None: ...
+    @property
     def passes(self) -> list[str]:
         """
         names of the passes to make, as in passes()
@@ -3605,6 +3644,20 @@ class RenderSettings:
         """
     @samples.setter
     def samples(self, value: int) -> None: ...
+    @property
+    def samples_from(self) -> int:
+        """
+        the first of the samples to take, a multiple of 64; at least 0
+        """
+    @samples_from.setter
+    def samples_from(self, value: int) -> None: ...
+    @property
+    def samples_to(self) -> int:
+        """
+        the end of the samples to take, a multiple of 64 or all; 0 is all; at least 0
+        """
+    @samples_to.setter
+    def samples_to(self, value: int) -> None: ...
     @property
     def seed(self) -> int:
         """
@@ -3662,13 +3715,15 @@ class Instance:
     shape: index into Scene.shapes
     transform: object to world
     materials: for each material slot an index into Scene.materials; None is a diffuse grey of 0.8
-    name: for messages
+    name: for messages and the passes CryptoObject
     visibility: RayKind bits: the rays that see it
     motion_transforms: object to world at further times, equally spaced: `transform` is when the shutter opens, the last when it closes; matrices are linear between them
     holdout: a hole in the picture, for camera rays
     shadow_catcher: the camera sees through it, darkened by the shadows of what is none
     shadow_terminator_offset: cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
     shadow_terminator_shading_offset: how much light is dimmed that grazes the object; in [0, 1]
+    pass_index: for the pass Object Index
+    asset_name: what it is part of, for the passes CryptoAsset; none: `name`
     """
     def __init__(
         self,
@@ -3682,8 +3737,17 @@ class Instance:
         shadow_catcher: bool = False,
         shadow_terminator_offset: float = 0.0,
         shadow_terminator_shading_offset: float = 0.0,
+        pass_index: int = 0,
+        asset_name: str = "",
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def asset_name(self) -> str:
+        """
+        what it is part of, for the passes CryptoAsset; none: `name`
+        """
+    @asset_name.setter
+    def asset_name(self, value: str) -> None: ...
     @property
     def holdout(self) -> bool:
         """
@@ -3710,10 +3774,17 @@ class Instance:
     @property
     def name(self) -> str:
         """
-        for messages
+        for messages and the passes CryptoObject
         """
     @name.setter
     def name(self, value: str) -> None: ...
+    @property
+    def pass_index(self) -> int:
+        """
+        for the pass Object Index
+        """
+    @pass_index.setter
+    def pass_index(self, value: int) -> None: ...
     @property
     def shadow_catcher(self) -> bool:
         """
@@ -3853,6 +3924,14 @@ class Scene:
     settings: RenderSettings
     def __init__(self) -> None: ...
     def __repr__(self) -> str: ...
+    def matte_metadata(self, prefix: str = "") -> dict[str, str]:
+        """
+        Entries of an EXR header for the Cryptomatte passes among settings.passes; `prefix` comes before the layers' names.
+        """
+    def range_metadata(self) -> str:
+        """
+        JSON with which samples of which picture settings.samples_from and samples_to choose, for merging.
+        """
     def save(self, path: str | os.PathLike[str]) -> None:
         """
         Writes one JSON file with everything in it, by way of a temporary name. Loading it gives the same picture.
@@ -3932,6 +4011,11 @@ class Tile:
     def height(self) -> int: ...
     @property
     def passes(self) -> list[str]: ...
+    @property
+    def sums(self) -> numpy.typing.NDArray[numpy.uint32] | None:
+        """
+        Of a range of the samples: (height, width, words) uint32, which merge_sums() adds up. None where all samples are rendered. Not a copy.
+        """
     @property
     def width(self) -> int: ...
     @property
@@ -4046,6 +4130,17 @@ def look_at_camera(
     """
     A perspective camera at `position`, world space, metres. fov is the full vertical angle, radians; aspect is
     width over height. Raises SceneError where these make no camera.
+    """
+
+def merge_sums(
+    parts: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint32]],
+    passes: collections.abc.Sequence[str],
+    samples: typing.SupportsInt | typing.SupportsIndex,
+    negative_mass: typing.SupportsFloat | typing.SupportsIndex,
+    has_shadow_catchers: bool,
+) -> Tile:
+    """
+    The picture of all samples that several Tile.sums, in their order, have together. The rest is as in Scene.range_metadata(). Raises SceneError.
     """
 
 def native_version() -> str:

@@ -106,6 +106,8 @@ class Bsdf {
   }
   // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
+  // A better one, of what is scattered in one way: see pass_albedo.cpp.
+  [[nodiscard]] Color albedo(Vec3f wo, ScatterKind kind) const;
 
   // Makes microfacets' alpha at least so much, mirrors rough. See adjust.cpp for this and the next.
   void roughen(float least_alpha);

@@ -31,8 +31,9 @@ class MaterialReader {
 
  private:
   void read_nodes(const JsonValue& json) {
-    json.check_keys(std::array<std::string_view, 4>{"nodes", "surface", "volume", "name"});
+    json.check_keys(std::array<std::string_view, 5>{"nodes", "surface", "volume", "name", "pass_index"});
     read_optional(json, "name", material_.name);
+    read_optional(json, "pass_index", material_.pass_index);
     if (const auto nodes = json.find("nodes")) {
       nodes->expect_array();
       for (std::size_t i = 0; i < nodes->size(); ++i) entries_.push_back(read_shader(nodes->item(i)));

@@ -113,7 +113,8 @@ Json write_shader(const ShaderNode& node, const SceneKeys& keys) {
 }
 
 Json write_material(const Material& material, const std::string& key, const SceneKeys& keys) {
-  if (material.nodes.size() == 1 && material.surface == 0 && material.volume == no_node && material.name == key)
+  if (material.nodes.size() == 1 && material.surface == 0 && material.volume == no_node && material.name == key &&
+      material.pass_index == 0)
     return write_shader(material.nodes[0], keys);
   Json json = Json::object();
   if (material.name != key) json["name"] = material.name;
@@ -121,6 +122,7 @@ Json write_material(const Material& material, const std::string& key, const Scen
   for (const ShaderNode& node : material.nodes) json["nodes"].push_back(write_shader(node, keys));
   if (material.surface != no_node) json["surface"] = material.surface;
   if (material.volume != no_node) json["volume"] = material.volume;
+  if (material.pass_index != 0) json["pass_index"] = material.pass_index;
   return json;
 }
 
@@ -163,6 +165,8 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
     json["shadow_terminator_offset"] = write(instance.shadow_terminator_offset);
   if (instance.shadow_terminator_shading_offset != 0)
     json["shadow_terminator_shading_offset"] = write(instance.shadow_terminator_shading_offset);
+  if (instance.pass_index != 0) json["pass_index"] = instance.pass_index;
+  if (!instance.asset_name.empty()) json["asset_name"] = instance.asset_name;
   return json;
 }
 

@@ -32,6 +32,8 @@ struct Instance {
   bool is_shadow_catcher = false;  // the camera sees through it, to where it darkens by others' shadows
   // See shadow_terminator.h, both in [0, 1].
   float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
+  int pass_index = 0;      // the pass Object Index
+  std::string asset_name;  // what it is part of, for the passes CryptoAsset; none: `name`
 };
 
 struct Scene {

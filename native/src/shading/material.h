@@ -384,6 +384,7 @@ struct Material {
   std::vector<ShaderNode> nodes;
   NodeIndex surface = no_node;  // none: black, opaque; with a volume nothing but the volume's boundary
   NodeIndex volume = no_node;   // what fills the shape: of VolumeShader and EmissionShader nodes, mixed and added
+  int pass_index = 0;           // the pass Material Index
 
   NodeIndex add(ShaderNode node) {
     nodes.push_back(std::move(node));
