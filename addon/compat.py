@@ -146,6 +146,31 @@ def is_portal(light: bpy.types.Light) -> bool:
     )
 
 
+# What Blender called passes before 5.0.
+_OLD_PASS_NAMES = {
+    "Object Index": "IndexOB",
+    "Material Index": "IndexMA",
+    "Diffuse Direct": "DiffDir",
+    "Diffuse Indirect": "DiffInd",
+    "Diffuse Color": "DiffCol",
+    "Glossy Direct": "GlossDir",
+    "Glossy Indirect": "GlossInd",
+    "Glossy Color": "GlossCol",
+    "Transmission Direct": "TransDir",
+    "Transmission Indirect": "TransInd",
+    "Transmission Color": "TransCol",
+    "Volume Direct": "VolumeDir",
+    "Volume Indirect": "VolumeInd",
+    "Emission": "Emit",
+    "Environment": "Env",
+}
+
+
+def pass_name(name: str) -> str:
+    """What this Blender calls a pass of the core, which has the names of 5.0."""
+    return name if bpy.app.version >= (5, 0, 0) else _OLD_PASS_NAMES.get(name, name)
+
+
 def peak_memory_megabytes() -> float | None:
     """The most memory this process has had, or None where the system does not tell."""
     try:

@@ -81,12 +81,11 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             return
         from ..export.settings import enabled_passes
 
-        kinds: dict[str, Any] = {"RGBA": "COLOR", "XYZ": "VECTOR", "Z": "VALUE"}
+        kinds: dict[str, Any] = {"XYZ": "VECTOR", "UVA": "VECTOR", "Z": "VALUE", "X": "VALUE"}
         for info in enabled_passes(renderlayer):
-            channels = info.channels
-            self.register_pass(
-                scene, renderlayer, info.name, len(channels), channels, kinds[channels]
-            )
+            channels, name = info.channels, compat.pass_name(info.name)
+            kind = kinds.get(channels, "COLOR")
+            self.register_pass(scene, renderlayer, name, len(channels), channels, kind)
 
     def _remember_failure(self, message: str) -> None:
         """update() can't end a render: render() is called after it and does."""
@@ -120,6 +119,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         except CancelledError:
             complete_without_pixels(self)
             return
+        self._stamp_mattes(exported, depsgraph.view_layer.name)
         with started as session:
             writer = ResultWriter(self, depsgraph.view_layer.name, session.rect)
             next_status = 0.0
@@ -135,6 +135,15 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             if not session.is_stopped:
                 self._show_status(session.progress)
         writer.finish()
+
+    def _stamp_mattes(self, exported: Export, layer: str) -> None:
+        """Into the picture's metadata: which names the ids of mattes stand for."""
+        entries = exported.scene.matte_metadata(f"{layer}.")
+        if not entries:
+            return
+        result: Any = self.get_result()
+        for key, value in entries.items():
+            result.stamp_data_add_field(key, value)
 
     def _is_cancelled(self) -> bool:
         """Whether the user pressed Escape, or the process was interrupted."""

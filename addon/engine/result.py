@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
+from .. import compat
+
 if TYPE_CHECKING:
     import basicrt
 
@@ -36,7 +38,7 @@ class ResultWriter:
             return
         for layer in result.layers:
             for name in tile.passes:
-                b_pass = layer.passes.get(name)
+                b_pass = layer.passes.get(compat.pass_name(name))
                 if b_pass is not None:
                     # Blender cuts off what lies outside of its picture.
                     pixels = tile[name][: result.resolution_y, : result.resolution_x]

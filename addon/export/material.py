@@ -13,7 +13,9 @@ from ..report import Report
 
 def convert(b_material: bpy.types.Material, report: Report, textures: Textures) -> basicrt.Material:
     """The surface of a material; its textures go to `textures`."""
-    return translate_surface(b_material, report, textures)
+    material = translate_surface(b_material, report, textures)
+    material.pass_index = b_material.pass_index
+    return material
 
 
 def slots(b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> list[bpy.types.Material | None]:

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 
 import basicrt
 
+from .. import compat
 from ..properties import settings_of
 from ..properties.choice import Choice
 from ..report import Report
@@ -16,7 +18,41 @@ from .camera import resolution
 from .motion import shutter_curve
 
 # Native pass -> the view layer's switch; Combined has none, it is always made.
-_PASS_SWITCHES = {"Depth": "use_pass_z", "Normal": "use_pass_normal"}
+_PASS_SWITCHES = {
+    "Depth": "use_pass_z",
+    "Normal": "use_pass_normal",
+    "Mist": "use_pass_mist",
+    "Position": "use_pass_position",
+    "UV": "use_pass_uv",
+    "Object Index": "use_pass_object_index",
+    "Material Index": "use_pass_material_index",
+    "Diffuse Direct": "use_pass_diffuse_direct",
+    "Diffuse Indirect": "use_pass_diffuse_indirect",
+    "Diffuse Color": "use_pass_diffuse_color",
+    "Glossy Direct": "use_pass_glossy_direct",
+    "Glossy Indirect": "use_pass_glossy_indirect",
+    "Glossy Color": "use_pass_glossy_color",
+    "Transmission Direct": "use_pass_transmission_direct",
+    "Transmission Indirect": "use_pass_transmission_indirect",
+    "Transmission Color": "use_pass_transmission_color",
+    "Emission": "use_pass_emit",
+    "Environment": "use_pass_environment",
+}
+# Switches that Cycles adds to view layers: not there where it is switched off.
+_CYCLES_PASS_SWITCHES = {
+    "Volume Direct": "use_pass_volume_direct",
+    "Volume Indirect": "use_pass_volume_indirect",
+    "Shadow Catcher": "use_pass_shadow_catcher",
+    "Debug Sample Count": "pass_debug_sample_count",
+    "Denoising Normal": "denoising_store_passes",
+    "Denoising Albedo": "denoising_store_passes",
+    "Denoising Depth": "denoising_store_passes",
+}
+_MATTE_SWITCHES = {
+    "CryptoObject": "use_pass_cryptomatte_object",
+    "CryptoMaterial": "use_pass_cryptomatte_material",
+    "CryptoAsset": "use_pass_cryptomatte_asset",
+}
 
 
 @dataclass(frozen=True)
@@ -41,11 +77,30 @@ def border(b_render: bpy.types.RenderSettings) -> Border:
 
 def enabled_passes(b_view_layer: bpy.types.ViewLayer) -> list[basicrt.PassInfo]:
     """The rows of the table of passes that a view layer asks for."""
-    return [
-        info
-        for info in basicrt.passes()
-        if info.name not in _PASS_SWITCHES or getattr(b_view_layer, _PASS_SWITCHES[info.name])
-    ]
+    return [info for info in basicrt.passes() if _is_enabled(info.name, b_view_layer)]
+
+
+def _is_enabled(name: str, b_view_layer: Any) -> bool:
+    if name in _PASS_SWITCHES:
+        return bool(getattr(b_view_layer, _PASS_SWITCHES[name]))
+    if name in _CYCLES_PASS_SWITCHES:
+        b_cycles = getattr(b_view_layer, "cycles", None)
+        return bool(getattr(b_cycles, _CYCLES_PASS_SWITCHES[name], False))
+    layer, number = name[:-2], name[-2:]
+    if layer in _MATTE_SWITCHES:  # two levels in each pass
+        is_deep_enough = 2 * int(number) < b_view_layer.pass_cryptomatte_depth
+        return bool(getattr(b_view_layer, _MATTE_SWITCHES[layer])) and is_deep_enough
+    return name == "Combined"
+
+
+def _convert_mist(b_world: bpy.types.World | None, settings: basicrt.RenderSettings) -> None:
+    """Blender's falloffs are powers."""
+    if b_world is None:
+        return
+    mist = b_world.mist_settings
+    falloffs = {"QUADRATIC": 2.0, "LINEAR": 1.0, "INVERSE_QUADRATIC": 0.5}
+    settings.mist_start, settings.mist_depth = mist.start, mist.depth
+    settings.mist_falloff = falloffs[mist.falloff]
 
 
 def _seed(chosen: Choice, b_scene: bpy.types.Scene) -> int:
@@ -105,6 +160,7 @@ def convert(
     settings.exposure = chosen.film_exposure
     settings.shutter_curve = shutter_curve(b_render) if b_render.use_motion_blur else []
     settings.film_transparent = b_render.film_transparent
+    _convert_mist(compat.view_layer_world(b_scene, b_view_layer), settings)
     settings.passes = [info.name for info in enabled_passes(b_view_layer)]
 
     item = f'scene "{b_scene.name}"'

@@ -7,16 +7,17 @@ from typing import Any
 
 import basicrt
 
+from .graph import Place, find_socket, trace
 from .node_view import NodeIndex, NodeView, shader
 
-WHITE = (1.0, 1.0, 1.0)
+DISTRIBUTIONS = ("multi_ggx", "ggx", "beckmann", "ashikhmin_shirley")
 
 
 def _distribution(view: NodeView) -> str:
     """The name of the node's microfacets in the core."""
     node: Any = view.node
     name = str(node.distribution).lower()
-    if name in ("multi_ggx", "ggx", "beckmann"):
+    if name in DISTRIBUTIONS:
         return name
     roughness = view.share("Roughness")
     if not isinstance(roughness, float) or roughness > 0.0:
@@ -24,25 +25,133 @@ def _distribution(view: NodeView) -> str:
     return "ggx"
 
 
+def _has(view: NodeView, identifier: str) -> bool:
+    """Whether this Blender's node has the input."""
+    return find_socket(view.node.inputs, identifier) is not None
+
+
+def _tangent(view: NodeView) -> str:
+    """What stretched microfacets lie along: around the object's z axis where nothing is linked."""
+    socket = find_socket(view.node.inputs, "Tangent")
+    source = trace(Place(socket, view.groups)).socket if socket else None
+    if source is None or not source.is_output:
+        return "radial_z"
+    node: Any = source.node
+    if node.bl_idname == "ShaderNodeTangent" and node.direction_type == "RADIAL":
+        return f"radial_{node.axis.lower()}"
+    if node.bl_idname == "ShaderNodeTangent" and not node.uv_map:
+        return "uv"
+    view.warn("Tangent is not supported: drawn along the UV map")
+    return "uv"
+
+
+def _stretch(view: NodeView, anisotropy: str, rotation: str, lowest: float) -> tuple[Any, ...]:
+    """How much microfacets are stretched, their rotation, and along what; a round lobe needs no more."""
+    amount = view.number(anisotropy, lowest, 1)
+    if amount == 0.0:
+        return 0.0, 0.0, "uv"
+    return amount, view.number(rotation, -1e6), _tangent(view)
+
+
+def _thin_film(view: NodeView) -> dict[str, float]:
+    """The film's keywords, none where there is no film."""
+    name = "Thin Film Thickness"
+    thickness = view.number(name) if _has(view, name) else 0.0
+    if thickness <= 0.0:
+        return {}
+    return {
+        "thin_film_thickness": thickness,
+        "thin_film_ior": view.number("Thin Film IOR", 1e-5),
+    }
+
+
 @shader("ShaderNodeBsdfDiffuse")
 def diffuse(view: NodeView) -> NodeIndex:
-    """Lambert's, both sides."""
-    view.ignore(Roughness=0.0)
+    """Lambert's, or Oren and Nayar's, both sides."""
     return view.add(
-        basicrt.DiffuseShader(color=view.color("Color"), twosided=True, normal=view.normal())
+        basicrt.DiffuseShader(
+            color=view.color("Color"),
+            twosided=True,
+            normal=view.normal(),
+            roughness=view.share("Roughness"),
+        )
     )
 
 
 @shader("ShaderNodeBsdfAnisotropic")  # the Glossy BSDF's name inside Blender
 def glossy(view: NodeView) -> NodeIndex:
     """A tinted mirror, rough by microfacets."""
-    view.ignore(Anisotropy=0.0)
+    anisotropy, rotation, tangent = _stretch(view, "Anisotropy", "Rotation", -1)
     return view.add(
         basicrt.GlossyShader(
             color=view.color("Color"),
             roughness=view.share("Roughness"),
             distribution=_distribution(view),
             normal=view.normal(),
+            anisotropy=anisotropy,
+            rotation=rotation,
+            tangent=tangent,
+        )
+    )
+
+
+@shader("ShaderNodeBsdfMetallic")
+def metallic(view: NodeView) -> NodeIndex:
+    """The Metallic BSDF of 4.3 and later: by two colours or by measured indices."""
+    view.ignore(Normal=None)
+    node: Any = view.node
+    anisotropy, rotation, tangent = _stretch(view, "Anisotropy", "Rotation", 0)
+    look: dict[str, Any]
+    if node.fresnel_type == "F82":
+        look = {"base_color": view.color("Base Color"), "edge_tint": view.color("Edge Tint")}
+    else:
+        look = {"ior": view.light("IOR"), "extinction": view.light("Extinction")}
+    return view.add(
+        basicrt.MetallicShader(
+            model=node.fresnel_type.lower(),
+            roughness=view.number("Roughness", 0, 1),
+            distribution=_distribution(view),
+            anisotropy=anisotropy,
+            rotation=rotation,
+            tangent=tangent,
+            **look,
+            **_thin_film(view),
+        )
+    )
+
+
+@shader("ShaderNodeBsdfTranslucent")
+def translucent(view: NodeView) -> NodeIndex:
+    """Diffuse, to the other side."""
+    view.ignore(Normal=None)
+    return view.add(basicrt.TranslucentShader(color=view.color("Color")))
+
+
+@shader("ShaderNodeBsdfSheen")
+def sheen(view: NodeView) -> NodeIndex:
+    """Fibres, or Ashikhmin's velvet."""
+    view.ignore(Normal=None)
+    node: Any = view.node
+    return view.add(
+        basicrt.SheenShader(
+            color=view.color("Color"),
+            roughness=view.number("Roughness", 0, 1),
+            model=node.distribution.lower(),
+        )
+    )
+
+
+@shader("ShaderNodeBsdfToon")
+def toon(view: NodeView) -> NodeIndex:
+    """A spot of even brightness."""
+    view.ignore(Normal=None)
+    node: Any = view.node
+    return view.add(
+        basicrt.ToonShader(
+            color=view.color("Color"),
+            component=node.component.lower(),
+            size=view.number("Size", 0, 1),
+            smooth=view.number("Smooth", 0, 1),
         )
     )
 
@@ -50,7 +159,6 @@ def glossy(view: NodeView) -> NodeIndex:
 @shader("ShaderNodeBsdfGlass")
 def glass(view: NodeView) -> NodeIndex:
     """Fresnel reflection and refraction, both tinted."""
-    view.ignore(Thin_Film_Thickness=0.0)
     color = view.color("Color")
     return view.add(
         basicrt.GlassShader(
@@ -60,6 +168,7 @@ def glass(view: NodeView) -> NodeIndex:
             roughness=view.share("Roughness"),
             distribution=_distribution(view),
             normal=view.normal(),
+            **_thin_film(view),
         )
     )
 
@@ -114,17 +223,9 @@ def add(view: NodeView) -> NodeIndex:
 
 @shader("ShaderNodeBsdfPrincipled")
 def principled(view: NodeView) -> NodeIndex:
-    """Diffuse, metal and glass under one Fresnel coat."""
-    view.ignore(
-        Subsurface_Weight=0.0,
-        Coat_Weight=0.0,
-        Sheen_Weight=0.0,
-        Anisotropic=0.0,
-        Diffuse_Roughness=0.0,
-        Specular_Tint=WHITE,
-        Thin_Film_Thickness=0.0,
-        Thin_Wall=0.0,
-    )
+    """All layers but subsurface scattering."""
+    view.ignore(Subsurface_Weight=0.0, Thin_Wall=0.0)
+    anisotropy, rotation, tangent = _stretch(view, "Anisotropic", "Anisotropic Rotation", 0)
     emission, emission_strength = view.radiance("Emission Color", "Emission Strength")
     ior = view.varying_number("IOR")
     if isinstance(ior, float) and ior < 1.0:
@@ -143,8 +244,45 @@ def principled(view: NodeView) -> NodeIndex:
             alpha=view.share("Alpha"),
             distribution=_distribution(view),
             normal=view.normal(),
+            # From 4.3 on.
+            diffuse_roughness=(
+                view.number("Diffuse Roughness", 0, 1) if _has(view, "Diffuse Roughness") else 0.0
+            ),
+            specular_tint=view.color("Specular Tint"),
+            anisotropic=anisotropy,
+            anisotropic_rotation=rotation,
+            tangent=tangent,
+            **_sheen_layer(view),
+            **_coat_layer(view),
+            **_thin_film(view),
         )
     )
+
+
+def _sheen_layer(view: NodeView) -> dict[str, Any]:
+    """The Principled BSDF's sheen, none where it has no weight."""
+    weight = view.number("Sheen Weight", 0, 1)
+    if weight == 0.0:
+        return {}
+    return {
+        "sheen_weight": weight,
+        "sheen_roughness": view.number("Sheen Roughness", 0, 1),
+        "sheen_tint": view.color("Sheen Tint"),
+    }
+
+
+def _coat_layer(view: NodeView) -> dict[str, Any]:
+    """The Principled BSDF's coat, none where it has no weight."""
+    weight = view.number("Coat Weight", 0, 1)
+    if weight == 0.0:
+        return {}
+    view.ignore(Coat_Normal=None)
+    return {
+        "coat_weight": weight,
+        "coat_roughness": view.number("Coat Roughness", 0, 1),
+        "coat_ior": max(view.number("Coat IOR"), 1.0),
+        "coat_tint": view.color("Coat Tint"),
+    }
 
 
 # ---- drawn with something similar ----------------------------------------------------------------
@@ -152,9 +290,6 @@ def principled(view: NodeView) -> NodeIndex:
 
 @shader(
     "ShaderNodeSubsurfaceScattering",
-    "ShaderNodeBsdfSheen",
-    "ShaderNodeBsdfToon",
-    "ShaderNodeBsdfTranslucent",
     "ShaderNodeBsdfHair",
     "ShaderNodeBsdfHairPrincipled",
 )
@@ -162,17 +297,6 @@ def diffuse_instead(view: NodeView) -> NodeIndex:
     """Shaders that spread light widely."""
     view.warn("not supported: drawn as a Diffuse BSDF")
     return view.add(basicrt.DiffuseShader(color=view.color("Color"), twosided=True))
-
-
-@shader("ShaderNodeBsdfMetallic")
-def metallic(view: NodeView) -> NodeIndex:
-    """The Metallic BSDF of 4.3 and later, without its edge tint or measured indices."""
-    view.warn("not supported: drawn as a Glossy BSDF")
-    return view.add(
-        basicrt.GlossyShader(
-            color=view.color("Base Color"), roughness=view.number("Roughness", 0, 1)
-        )
-    )
 
 
 @shader("ShaderNodeBsdfRayPortal")

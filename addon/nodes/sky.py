@@ -9,33 +9,51 @@ from typing import Any
 
 import basicrt
 
+from .hosek_wilkie import CLEAREST, brightness_over_preetham
+
 Sky = basicrt.PreethamSky | basicrt.SingleScatteringSky | basicrt.MultipleScatteringSky
 
 _SMALLEST_SUN = 0.0005  # radians; Cycles makes no sun smaller
 
 
-def convert_sky(node: Any, warn: Callable[[str], None]) -> Sky:
-    """The sky of a Sky Texture; another model in place of one that there is not, with a warning."""
+def convert_sky(node: Any, warn: Callable[[str], None]) -> tuple[Sky, tuple[float, float, float]]:
+    """The sky of a Sky Texture, and what it is multiplied by.
+
+    Another model stands in for one that there is not, with a warning.
+    """
+    sky = _sky_of(node, warn)
+    if node.sky_type != "HOSEK_WILKIE":
+        return sky, (1.0, 1.0, 1.0)
+    elevation, _rotation = _sun_place(node)
+    return sky, brightness_over_preetham(node.turbidity, elevation, node.ground_albedo)
+
+
+def _sky_of(node: Any, warn: Callable[[str], None]) -> Sky:
     match node.sky_type:
         case "PREETHAM":
-            return _preetham(node)
+            return _preetham(node, node.turbidity)
         case "NISHITA" | "SINGLE_SCATTERING":
             return basicrt.SingleScatteringSky(**_sun_and_air(node))
         case "MULTIPLE_SCATTERING":
             return basicrt.MultipleScatteringSky(**_sun_and_air(node))
+        case "HOSEK_WILKIE":
+            warn("Hosek / Wilkie is not supported: Preetham's sky instead, as bright")
+            return _preetham(node, max(node.turbidity, CLEAREST))
         case other:
             title = node.bl_rna.properties["sky_type"].enum_items[other].name
             warn(f"{title} is not supported: Preetham's sky instead")
-            return _preetham(node)
+            return _preetham(node, node.turbidity)
 
 
-def _preetham(node: Any) -> basicrt.PreethamSky:
+def _preetham(node: Any, turbidity: float) -> basicrt.PreethamSky:
+    elevation, rotation = _sun_place(node)
+    return basicrt.PreethamSky(sun_elevation=elevation, sun_rotation=rotation, turbidity=turbidity)
+
+
+def _sun_place(node: Any) -> tuple[float, float]:
+    """Elevation and rotation of the sun, radians."""
     x, y, z = node.sun_direction
-    return basicrt.PreethamSky(
-        sun_elevation=math.asin(min(max(z, -1.0), 1.0)),
-        sun_rotation=math.atan2(x, y),
-        turbidity=node.turbidity,
-    )
+    return math.asin(min(max(z, -1.0), 1.0)), math.atan2(x, y)
 
 
 def _sun_and_air(node: Any) -> dict[str, Any]:

@@ -54,7 +54,6 @@ def translate_surface(
     Its textures are added to `store`.
     """
     material = basicrt.Material(name=b_material.name)
-    material.pass_index = float(b_material.pass_index)
     with compat.inlined_nodes(b_material) as tree:
         if tree is None:
             red, green, blue, _alpha = b_material.diffuse_color

@@ -188,9 +188,10 @@ def _sky_layer(view: NodeView, factor: float, seen_by: str) -> basicrt.Environme
     """A Sky Texture."""
     node: Any = view.node
     has_vector = node.sky_type in ("PREETHAM", "HOSEK_WILKIE")
+    sky, brightness = convert_sky(node, view.warn)
     return basicrt.EnvironmentLayer(
-        radiance=(factor, factor, factor),
-        sky=convert_sky(node, view.warn),
+        radiance=scaled(brightness, factor),
+        sky=sky,
         # Blender has no Vector for the skies in which the sun has a disc.
         transform=_direction_matrix(view) if has_vector else np.eye(4),
         seen_by=seen_by,

@@ -169,12 +169,13 @@ class _InstanceExport:
                 name=b_object.name,
                 visibility=self._visibility_of(b_instance, b_object),
                 color=b_object.color[:3],
-                pass_index=float(b_object.pass_index),
                 random=b_instance.random_id / 0xFFFFFFFF,
                 holdout=self._is_holdout(b_instance, b_object),
                 shadow_catcher=self._is_shadow_catcher(b_instance, b_object),
                 shadow_terminator_offset=compat.shadow_terminator_offset(b_object),
                 shadow_terminator_shading_offset=compat.shadow_terminator_shading_offset(b_object),
+                pass_index=b_object.pass_index,
+                asset_name=self._asset_name(b_instance, b_object),
             )
         )
         if self._movement is not None:
@@ -238,6 +239,15 @@ class _InstanceExport:
             self._names["materials"].append(f'material "{b_material.name}"')
             self._materials[key] = self._scene.materials.append(converted)
         return self._materials[key]
+
+    def _asset_name(
+        self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object
+    ) -> str:
+        """What an object is part of: its topmost parent, or that of what instances it."""
+        b_asset: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
+        while b_asset.parent is not None:
+            b_asset = b_asset.parent
+        return str(b_asset.name)
 
     def _is_holdout(
         self, b_instance: bpy.types.DepsgraphObjectInstance, b_object: bpy.types.Object

@@ -217,9 +217,39 @@ class BASICRT_VIEWLAYER_PT_passes(_Panel, bpy.types.Panel):
 
     def draw(self, context: Any) -> None:
         """Blender's callback."""
+        view_layer = context.view_layer
         column = self.column()
-        column.prop(context.view_layer, "use_pass_z", text="Depth")
-        column.prop(context.view_layer, "use_pass_normal", text="Normal")
+        for name, text in (
+            ("z", "Depth"),
+            ("mist", "Mist"),
+            ("position", "Position"),
+            ("normal", "Normal"),
+            ("uv", "UV"),
+            ("object_index", "Object Index"),
+            ("material_index", "Material Index"),
+        ):
+            column.prop(view_layer, f"use_pass_{name}", text=text)
+        for kind in ("Diffuse", "Glossy", "Transmission"):
+            column = self.layout.column(heading=kind, align=True)
+            for part in ("Direct", "Indirect", "Color"):
+                column.prop(view_layer, f"use_pass_{kind.lower()}_{part.lower()}", text=part)
+        column = self.layout.column(heading="Other", align=True)
+        column.prop(view_layer, "use_pass_emit", text="Emission")
+        column.prop(view_layer, "use_pass_environment", text="Environment")
+        b_cycles = getattr(view_layer, "cycles", None)
+        for name, text in (
+            ("use_pass_volume_direct", "Volume Direct"),
+            ("use_pass_volume_indirect", "Volume Indirect"),
+            ("use_pass_shadow_catcher", "Shadow Catcher"),
+            ("pass_debug_sample_count", "Sample Count"),
+            ("denoising_store_passes", "Denoising Data"),
+        ):
+            if hasattr(b_cycles, name):
+                column.prop(b_cycles, name, text=text)
+        column = self.layout.column(heading="Cryptomatte", align=True)
+        for kind in ("Object", "Material", "Asset"):
+            column.prop(view_layer, f"use_pass_cryptomatte_{kind.lower()}", text=kind)
+        column.prop(view_layer, "pass_cryptomatte_depth", text="Levels")
 
 
 class BASICRT_OBJECT_PT_ray_visibility(_Panel, bpy.types.Panel):

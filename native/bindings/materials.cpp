@@ -21,15 +21,19 @@ auto root_setter(NodeIndex Material::* root) {
 }  // namespace
 
 void register_materials(py::module_& m) {
-  bind_described<DiffuseShader>(m, "DiffuseShader", "Lambert's reflection.");
+  bind_described<DiffuseShader>(m, "DiffuseShader", "Diffuse reflection, Lambert's or by a rough surface.");
   bind_described<GlossyShader>(m, "GlossyShader", "GGX reflection tinted by a colour; a mirror at roughness 0.");
   bind_described<ConductorShader>(m, "ConductorShader", "A metal with measured refractive indices.");
+  bind_described<MetallicShader>(m, "MetallicShader", "A metal by two colours or by measured refractive indices.");
+  bind_described<TranslucentShader>(m, "TranslucentShader", "Diffuse transmission.");
+  bind_described<SheenShader>(m, "SheenShader", "Light that fibres scatter at grazing angles.");
+  bind_described<ToonShader>(m, "ToonShader", "A spot of even brightness.");
   bind_described<RefractionShader>(m, "RefractionShader", "Refraction without Fresnel reflection.");
   bind_described<GlassShader>(m, "GlassShader", "Fresnel reflection and refraction.");
   bind_described<TransparentShader>(m, "TransparentShader", "Light passes straight through, tinted.");
   bind_described<EmissionShader>(m, "EmissionShader", "A surface that shines.");
   bind_described<HoldoutShader>(m, "HoldoutShader", "A hole in the picture for what the camera sees.");
-  bind_described<PrincipledShader>(m, "PrincipledShader", "Blender's Principled BSDF.");
+  bind_described<PrincipledShader>(m, "PrincipledShader", "Blender's Principled BSDF but for subsurface scattering.");
   bind_described<VolumeShader>(m, "VolumeShader", "What fills a shape, by its coefficients.");
   bind_described<MixShader>(m, "MixShader", "A blend of two nodes; None is black and opaque.");
   bind_described<AddShader>(m, "AddShader", "The sum of two nodes; None is black and opaque.");
@@ -38,7 +42,7 @@ void register_materials(py::module_& m) {
       .def(py::init([](std::string name) { return Material{.name = std::move(name), .nodes = {}}; }),
            py::arg("name") = "")
       .def_readwrite("name", &Material::name)
-      .def_readwrite("pass_index", &Material::pass_index)
+      .def_readwrite("pass_index", &Material::pass_index, "for the pass Material Index and operations that ask")
       .def("add", py::overload_cast<ShaderNode>(&Material::add), py::arg("node"),
            "Appends a node and returns its index.")
       .def("add_operation", py::overload_cast<Operation>(&Material::add), py::arg("operation"),

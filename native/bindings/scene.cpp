@@ -2,10 +2,14 @@
 // Scene, its tables and Instance.
 #include "scene/scene.h"
 
+#include <pybind11/typing.h>
+
 #include "described.h"
+#include "io/sample_range.h"
 #include "io/scene_json.h"
 #include "path_argument.h"
 #include "register.h"
+#include "scene/mattes.h"
 #include "scene_lease.h"
 
 namespace basicrt::bindings {
@@ -70,7 +74,7 @@ void bind_instance(py::module_& m) {
       make_attribute(field("transform", &Instance::object_to_world, "object to world")),
       make_attribute(field("materials", &Instance::materials,
                            "for each material slot an index into Scene.materials; None is a diffuse grey of 0.8")),
-      make_attribute(field("name", &Instance::name, "for messages")),
+      make_attribute(field("name", &Instance::name, "for messages and the passes CryptoObject")),
       {"visibility", "RayKind bits: the rays that see it", "int", "int",
        [](const Instance& self) { return py::int_(self.visibility); },
        [](Instance& self, py::handle value, const std::string& item) {
@@ -86,14 +90,16 @@ void bind_instance(py::module_& m) {
       make_attribute(field("shadow_catcher", &Instance::is_shadow_catcher,
                            "the camera sees through it, darkened by the shadows of what is none")),
       info_attribute("color", "for materials that ask", &ObjectInfo::color),
-      info_attribute("pass_index", "for materials that ask", &ObjectInfo::pass_index),
       info_attribute("random", "in [0, 1], for materials that ask", &ObjectInfo::random),
       make_attribute(field("shadow_terminator_offset", &Instance::shadow_terminator_offset,
                            "cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not "
                            "the facets",
                            within(0, 1))),
       make_attribute(field("shadow_terminator_shading_offset", &Instance::shadow_terminator_shading_offset,
-                           "how much light is dimmed that grazes the object", within(0, 1)))};
+                           "how much light is dimmed that grazes the object", within(0, 1))),
+      make_attribute(field("pass_index", &Instance::pass_index, "for the pass Object Index and materials that ask")),
+      make_attribute(
+          field("asset_name", &Instance::asset_name, "what it is part of, for the passes CryptoAsset; none: `name`"))};
   bind_fields<Instance>(m, "Instance", "A shape placed in the world.", attributes);
 }
 
@@ -144,6 +150,21 @@ void register_scene(py::module_& m) {
           },
           py::arg("path"),
           "Writes one JSON file with everything in it, by way of a temporary name. Loading it gives the same picture.")
+      .def(
+          "matte_metadata",
+          [](const BoundScene& self, const std::string& prefix) {
+            py::typing::Dict<py::str, py::str> entries;
+            for (const auto& [key, value] : matte_metadata(self.scene(), prefix))
+              entries[py::str(key)] = py::str(value);
+            return entries;
+          },
+          py::arg("prefix") = "",
+          "Entries of an EXR header for the Cryptomatte passes among settings.passes; `prefix` comes before the "
+          "layers' "
+          "names.")
+      .def(
+          "range_metadata", [](BoundScene& self) { return range_metadata(SceneLease(self).scene()); },
+          "JSON with which samples of which picture settings.samples_from and samples_to choose, for merging.")
       .def(
           "to_json", [](BoundScene& self) { return scene_to_json(SceneLease(self).scene()); },
           "The text that save() writes.")

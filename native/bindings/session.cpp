@@ -2,6 +2,7 @@
 // Session: Python pulls finished tiles; native threads never enter Python.
 #include "render/session.h"
 
+#include <pybind11/stl.h>
 #include <pybind11/typing.h>
 
 #include <algorithm>
@@ -139,6 +140,38 @@ std::vector<std::string> pass_names(const Tile& tile) {
   return names;
 }
 
+std::optional<py::array_t<std::uint32_t>> sums_of(const py::object& self) {
+  Tile& tile = self.cast<Tile&>();
+  if (tile.sums.empty()) return std::nullopt;
+  const std::size_t pixels = static_cast<std::size_t>(tile.rect.width) * tile.rect.height;
+  return py::array_t<std::uint32_t>(
+      std::vector<py::ssize_t>{tile.rect.height, tile.rect.width, static_cast<py::ssize_t>(tile.sums.size() / pixels)},
+      tile.sums.data(), self);
+}
+
+Tile merge_sums(const std::vector<py::array_t<std::uint32_t, py::array::c_style>>& parts,
+                const std::vector<std::string>& names, int samples, float negative_mass, bool has_shadow_catchers) {
+  if (parts.empty()) throw SceneError("merge_sums.parts", "there are none");
+  PassLayout layout;
+  for (const PassInfo& info : passes)
+    if (std::ranges::find(names, info.name) != names.end()) layout.enable(info.pass);
+  const auto& first = parts.front();
+  if (first.ndim() != 3) throw SceneError("merge_sums.parts", "must have the shape (height, width, words)");
+  TileAccumulator accumulator(
+      {0, 0, static_cast<int>(first.shape(1)), static_cast<int>(first.shape(0))}, layout,
+      {.negative_mass = negative_mass, .has_shadow_catchers = has_shadow_catchers, .samples = samples});
+  for (const auto& part : parts) {
+    if (part.ndim() != 3 || part.shape(0) != first.shape(0) || part.shape(1) != first.shape(1) ||
+        static_cast<std::size_t>(part.shape(2)) != accumulator.words_per_pixel())
+      throw SceneError("merge_sums.parts", "are not of the same picture");
+    accumulator.add_words({part.data(), static_cast<std::size_t>(part.size())});
+  }
+  std::vector<std::uint32_t> sums = accumulator.take_words();
+  Tile tile = accumulator.finish();
+  tile.sums = std::move(sums);
+  return tile;
+}
+
 void bind_tile(py::module_& m) {
   py::class_<Tile>(m, "Tile", "Finished pixels of a rectangle, in the whole picture's coordinates: (0, 0) lower left.")
       .def_property_readonly("x", [](const Tile& tile) { return tile.rect.x; })
@@ -146,12 +179,23 @@ void bind_tile(py::module_& m) {
       .def_property_readonly("width", [](const Tile& tile) { return tile.rect.width; })
       .def_property_readonly("height", [](const Tile& tile) { return tile.rect.height; })
       .def_property_readonly("passes", &pass_names)
+      .def_property_readonly("sums", &sums_of,
+                             "Of a range of the samples: (height, width, words) uint32, which merge_sums() adds up. "
+                             "None where all samples "
+                             "are rendered. Not a copy.")
       .def("__getitem__", &pass_of, py::arg("name"),
            "The pass as (height, width, channels) float32, C-contiguous, row 0 at the bottom. Not a copy.")
       .def("__repr__", [](const Tile& tile) {
         return "<Tile of " + std::to_string(tile.rect.width) + " x " + std::to_string(tile.rect.height) + " at (" +
                std::to_string(tile.rect.x) + ", " + std::to_string(tile.rect.y) + ")>";
       });
+}
+
+void bind_merging(py::module_& m) {
+  m.def("merge_sums", &merge_sums, py::arg("parts"), py::arg("passes"), py::arg("samples"), py::arg("negative_mass"),
+        py::arg("has_shadow_catchers"),
+        "The picture of all samples that several Tile.sums, in their order, have together. The rest is as in "
+        "Scene.range_metadata(). Raises SceneError.");
 }
 
 void bind_progress(py::module_& m) {
@@ -172,6 +216,7 @@ void bind_progress(py::module_& m) {
 void register_session(py::module_& m) {
   bind_tile(m);
   bind_progress(m);
+  bind_merging(m);
   py::class_<TileIterator>(m, "TileIterator", "What Session.tiles() returns.")
       .def(
           "__iter__", [](TileIterator& self) -> TileIterator& { return self; }, py::return_value_policy::reference)

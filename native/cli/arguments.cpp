@@ -10,23 +10,25 @@
 namespace basicrt {
 namespace {
 
-int parse_count(const char* option, std::string_view text, int maximum) {
+int parse_count(const char* option, std::string_view text, int maximum, int minimum = 1) {
   int count = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count < 1 || count > maximum)
-    throw UsageError(std::string(option) + " needs a whole number from 1 to " + std::to_string(maximum) + ", not \"" +
-                     std::string(text) + "\"");
+  if (error != std::errc() || end != text.data() + text.size() || count < minimum || count > maximum)
+    throw UsageError(std::string(option) + " needs a whole number from " + std::to_string(minimum) + " to " +
+                     std::to_string(maximum) + ", not \"" + std::string(text) + "\"");
   return count;
 }
 
 }  // namespace
 
 Arguments parse_arguments(int argc, char** argv) {
-  enum LongOption { spp = 256, threads, tile_size, override_json };
+  enum LongOption { spp = 256, samples_from, samples_to, threads, tile_size, override_json };
   const option options[] = {{"output", required_argument, nullptr, 'o'},
                             {"quiet", no_argument, nullptr, 'q'},
                             {"help", no_argument, nullptr, 'h'},
                             {"spp", required_argument, nullptr, spp},
+                            {"samples-from", required_argument, nullptr, samples_from},
+                            {"samples-to", required_argument, nullptr, samples_to},
                             {"threads", required_argument, nullptr, threads},
                             {"tile-size", required_argument, nullptr, tile_size},
                             {"override", required_argument, nullptr, override_json},
@@ -46,6 +48,12 @@ Arguments parse_arguments(int argc, char** argv) {
         break;
       case spp:
         arguments.samples = parse_count("--spp", optarg, 1 << 24);
+        break;
+      case samples_from:
+        arguments.samples_from = parse_count("--samples-from", optarg, 1 << 24, 0);
+        break;
+      case samples_to:
+        arguments.samples_to = parse_count("--samples-to", optarg, 1 << 24);
         break;
       case threads:
         arguments.threads = parse_count("--threads", optarg, 1024);

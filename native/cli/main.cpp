@@ -6,14 +6,18 @@
 #include <cstdio>
 #include <new>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "arguments.h"
 #include "base/error.h"
 #include "io/exr.h"
 #include "io/file.h"
 #include "io/image_file.h"
+#include "io/sample_range.h"
 #include "io/scene_json.h"
 #include "render/session.h"
+#include "scene/mattes.h"
 
 namespace basicrt {
 namespace {
@@ -36,22 +40,32 @@ Image read_image(const std::filesystem::path& path) {
   return path.extension() == ".exr" ? read_exr(path) : read_image_file(path);
 }
 
-PreparedScene load(const Arguments& arguments) {
+struct Loaded {
+  PreparedScene scene;
+  std::vector<std::pair<std::string, std::string>> metadata;
+};
+
+Loaded load(const Arguments& arguments) {
   Report report;
   Scene scene =
       load_scene(arguments.scene, report, {.override_json = arguments.override_json, .read_image = read_image});
   if (arguments.samples) scene.settings.samples = *arguments.samples;
+  scene.settings.samples_from = arguments.samples_from.value_or(scene.settings.samples_from);
+  scene.settings.samples_to = arguments.samples_to.value_or(scene.settings.samples_to);
   PreparedScene prepared =
       prepare_watched(scene, report, arguments.threads, [](double) { return is_interrupted == 0; });
   if (!arguments.is_quiet)
     for (const std::string& warning : report.warnings()) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  return prepared;
+  std::vector<std::pair<std::string, std::string>> metadata = matte_metadata(scene);
+  if (scene.settings.has_sample_range()) metadata.emplace_back(range_metadata_key, range_metadata(scene));
+  return {std::move(prepared), std::move(metadata)};
 }
 
 // The exit status.
 int run(const Arguments& arguments) {
   check_writable(arguments.output);
-  Session session(load(arguments), {.threads = arguments.threads, .tile_size = arguments.tile_size});
+  Loaded loaded = load(arguments);
+  Session session(std::move(loaded.scene), {.threads = arguments.threads, .tile_size = arguments.tile_size});
   const RenderSettings& settings = session.scene().settings;
   Film film(settings.width, settings.height, settings.passes);
   while (!session.is_done() && !is_interrupted) {
@@ -61,8 +75,10 @@ int run(const Arguments& arguments) {
   session.stop();
   if (!arguments.is_quiet) show_progress(session.progress(), true);
   if (is_interrupted) throw Cancelled();
-  write_exr(arguments.output, film,
-            {{"software", "BasicRT " BASICRT_VERSION}, {"samples", std::to_string(settings.samples)}});
+  std::vector<std::pair<std::string, std::string>> metadata = loaded.metadata;
+  metadata.emplace_back("software", "BasicRT " BASICRT_VERSION);
+  metadata.emplace_back("samples", std::to_string(settings.samples));
+  write_exr(arguments.output, film, metadata);
   return 0;
 }
 

@@ -163,6 +163,19 @@ def picture_sky(scene: bpy.types.Scene) -> None:
 
 
 @family
+def evening_sky(scene: bpy.types.Scene) -> None:
+    """A sky with its sun."""
+    corner(scene)
+    stage.set_world((1.0, 1.0, 1.0), 0.1)
+    tree = scene.world.node_tree
+    sky: Any = tree.nodes.new("ShaderNodeTexSky")
+    sky.sky_type = "MULTIPLE_SCATTERING"
+    sky.sun_elevation, sky.sun_rotation = math.radians(20), math.radians(150)
+    background = next(node for node in tree.nodes if node.type == "BACKGROUND")
+    tree.links.new(sky.outputs["Color"], background.inputs["Color"])
+
+
+@family
 def many_lamps(scene: bpy.types.Scene) -> None:
     """Eighty lamps of all kinds, between which the tree of lights must choose."""
     corner(scene)
@@ -270,6 +283,47 @@ def seen_by_some(scene: bpy.types.Scene) -> None:
     yellow = stage.diffuse("Yellow", (0.8, 0.7, 0.1))
     stage.box("No Reflection", (0.5, 0.5, 0.8), (1.8, -0.4, 0), 10, yellow).visible_glossy = False
     stage.box("No Bounce", (0.5, 0.5, 0.8), (-2.2, 0, 0), 10, yellow).visible_diffuse = False
+
+
+# ---- volumes -------------------------------------------------------------------------------------
+
+
+def fill(name: str, bl_idname: str, **values: Any) -> bpy.types.Material:
+    """A material without a surface, of one volume node."""
+    material, tree, output = stage.empty_material(name)
+    node = stage.new_node(tree, bl_idname, **values)
+    tree.links.new(node.outputs[0], output.inputs["Volume"])
+    return material
+
+
+@family
+def clouded_boxes(scene: bpy.types.Scene) -> None:
+    """A cloud in a box, one inside the other's corner, and glass that absorbs."""
+    glass = stage.new_material("Glass", "ShaderNodeBsdfGlass", Roughness=0.0, IOR=1.3)
+    tree: Any = glass.node_tree
+    tint = stage.new_node(tree, "ShaderNodeVolumeAbsorption", Color=(0.3, 0.8, 0.9), Density=2.0)
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(tint.outputs[0], output.inputs["Volume"])
+    corner(scene, glass)
+    ceiling_lamp()
+    scatter = "ShaderNodeVolumeScatter"
+    white = fill("White Cloud", scatter, Color=(0.9, 0.9, 0.9), Density=1.5, Anisotropy=0.4)
+    red = fill("Red Cloud", scatter, Color=(0.9, 0.4, 0.3), Density=4.0, Anisotropy=-0.3)
+    stage.box("Cloud", (1.5, 1.5, 1.2), (0.4, -0.9, 1.2), 10, white)
+    stage.box("Inner Cloud", (0.7, 0.7, 0.7), (0.9, -0.9, 1.6), 30, red)
+
+
+@family
+def foggy_world(scene: bpy.types.Scene) -> None:
+    """The camera stands in fog that a spot lamp shines through."""
+    corner(scene)
+    spot = {"spot_size": math.radians(35), "spot_blend": 0.2, "shadow_soft_size": 0.05}
+    stage.lamp("SPOT", "Beam", (-2, -1, 3), (20, -40, 0), 600.0, **spot)
+    stage.set_world((0.0, 0.0, 0.0))
+    tree: Any = scene.world.node_tree
+    fog = stage.new_node(tree, "ShaderNodeVolumeScatter", Density=0.08, Anisotropy=0.2)
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_WORLD")
+    tree.links.new(fog.outputs[0], output.inputs["Volume"])
 
 
 # ---- cameras -------------------------------------------------------------------------------------

@@ -23,6 +23,7 @@ from support.blender import (
     render_both,
     world_tree,
 )
+from support.cycles import both
 
 IS_NEW = bpy.app.version >= (5, 0, 0)
 SINGLE = "SINGLE_SCATTERING" if IS_NEW else "NISHITA"
@@ -78,7 +79,7 @@ def test_a_sun_has_a_least_size() -> None:
 def test_hosek_and_wilkie_s_sky_is_reported() -> None:
     sky_world("HOSEK_WILKIE", turbidity=4)
     environment = exported(
-        'node "Sky Texture": Hosek / Wilkie is not supported: Preetham\'s sky instead'
+        'node "Sky Texture": Hosek / Wilkie is not supported: Preetham\'s sky instead, as bright'
     )
     sky = environment.layers[0].sky
     assert isinstance(sky, basicrt.PreethamSky)
@@ -140,6 +141,28 @@ def test_a_mapped_sky_is_as_in_cycles(tmp_path: Path) -> None:
     tree.links.new(coordinates.outputs["Generated"], mapping.inputs["Vector"])
     tree.links.new(mapping.outputs[0], texture.inputs["Vector"])
     assert_sky_is_as_in_cycles(tmp_path, relative=0.012, below=0.012)
+
+
+@pytest.mark.parametrize(
+    ("turbidity", "degrees", "albedo"), [(1.3, 50, 0.3), (3, 15, 0), (4.4, 38, 1), (9, 3, 0.6)]
+)
+def test_hosek_and_wilkie_s_sky_is_as_bright(
+    turbidity: float, degrees: float, albedo: float, tmp_path: Path
+) -> None:
+    """What a plane that faces up receives; between the entries of the table within 5 %."""
+    scene = bpy.context.scene
+    scene.basicrt.samples = 256
+    scene.basicrt.max_bounces = 0
+    white = new_material("ShaderNodeBsdfDiffuse", Color=(1, 1, 1))
+    add_plane(material=white)
+    elevation = math.radians(degrees)
+    direction = (0.6 * math.cos(elevation), 0.8 * math.cos(elevation), math.sin(elevation))
+    sky_world("HOSEK_WILKIE", turbidity=turbidity, sun_direction=direction, ground_albedo=albedo)
+    ours, theirs = (
+        picture.reshape(-1, picture.shape[-1])[:, :3].mean(axis=0)
+        for picture in both(scene, tmp_path)
+    )
+    np.testing.assert_allclose(ours, theirs, rtol=0.05)
 
 
 @pytest.mark.parametrize("model", MODELS[1:])

@@ -247,7 +247,7 @@ def render_passes(folder: Path) -> dict[str, np.ndarray]:
                 full = name if name.count(".") >= 2 else f"{part.name()}.{name}"
                 stem, _, letter = full.rpartition(".")
                 planes.setdefault(stem, {})[letter] = np.array(channel.pixels[::-1])
-    order = "RGBAXYZV"
+    order = "UVRGBArgbaXYZW"
     return {
         stem: np.stack([by_letter[c] for c in order if c in by_letter], axis=-1)
         for stem, by_letter in planes.items()

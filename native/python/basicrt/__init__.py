@@ -52,6 +52,7 @@ from ._native import (
     MathOperation,
     Mesh,
     MixOperation,
+    MetallicShader,
     MixShader,
     MultipleScatteringSky,
     NoiseOperation,
@@ -71,6 +72,7 @@ from ._native import (
     SceneError,
     SceneWarning,
     Session,
+    SheenShader,
     SingleScatteringSky,
     Sphere,
     SpotLight,
@@ -82,6 +84,8 @@ from ._native import (
     Tile,
     ToneOperation,
     TransformOperation,
+    ToonShader,
+    TranslucentShader,
     TransparentShader,
     VectorMathOperation,
     VolumeShader,
@@ -89,10 +93,12 @@ from ._native import (
     WaveOperation,
     WhiteNoiseOperation,
     look_at_camera,
+    merge_sums,
     native_version,
     passes,
 )
 from .images import read_exr, write_exr, write_png
+from .merging import merge
 from .ray_kinds import RayKind
 from .rendering import render
 from .scene_files import load_scene
@@ -139,6 +145,7 @@ __all__ = [
     "MathOperation",
     "Mesh",
     "MixOperation",
+    "MetallicShader",
     "MixShader",
     "MultipleScatteringSky",
     "NoiseOperation",
@@ -159,6 +166,7 @@ __all__ = [
     "SceneError",
     "SceneWarning",
     "Session",
+    "SheenShader",
     "SingleScatteringSky",
     "Sphere",
     "SpotLight",
@@ -170,6 +178,8 @@ __all__ = [
     "Tile",
     "ToneOperation",
     "TransformOperation",
+    "ToonShader",
+    "TranslucentShader",
     "TransparentShader",
     "VectorMathOperation",
     "VolumeShader",
@@ -179,6 +189,8 @@ __all__ = [
     "__version__",
     "load_scene",
     "look_at_camera",
+    "merge",
+    "merge_sums",
     "native_version",
     "passes",
     "read_exr",

@@ -3,44 +3,112 @@
 """
 The native core of BasicRT. Use it through the package basicrt.
 """
+
 from __future__ import annotations
 import collections.abc
 import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['AddShader', 'AreaLight', 'AttributeOperation', 'BrickOperation', 'BumpOperation', 'ChangeSpaceOperation', 'CheckerOperation', 'CheckerboardTexture', 'CombineOperation', 'ComponentOperation', 'ConductorShader', 'ConstantTexture', 'ConvertColorOperation', 'CubemapFaceCamera', 'CylindricalCamera', 'DiffuseShader', 'EmissionShader', 'Environment', 'EnvironmentLayer', 'EquirectangularCamera', 'FisheyeEquidistantCamera', 'FisheyeEquisolidCamera', 'FisheyePolynomialCamera', 'FresnelOperation', 'GlassShader', 'GlossyShader', 'GradientOperation', 'HoldoutShader', 'HueSaturationOperation', 'Image', 'ImageTexture', 'Instance', 'InstanceTable', 'LightTable', 'MagicOperation', 'MapRangeOperation', 'MappingOperation', 'Material', 'MaterialTable', 'MathOperation', 'Mesh', 'MixOperation', 'MixShader', 'MultipleScatteringSky', 'NoiseOperation', 'NormalMapOperation', 'OperationRef', 'OrthographicCamera', 'PassInfo', 'PerspectiveCamera', 'PointLight', 'PreethamSky', 'PrincipledShader', 'Progress', 'RefractionShader', 'RenderSettings', 'RotateOperation', 'Scene', 'SceneError', 'SceneWarning', 'Session', 'ShapeTable', 'SingleScatteringSky', 'Sphere', 'SpotLight', 'SunLight', 'SurfaceOperation', 'TableOperation', 'TextureOperation', 'TextureRef', 'TextureTable', 'Tile', 'TileIterator', 'ToneOperation', 'TransformOperation', 'TransparentShader', 'VectorMathOperation', 'VolumeShader', 'VoronoiOperation', 'WaveOperation', 'WhiteNoiseOperation', 'load_scene', 'look_at_camera', 'native_version', 'passes']
+
+__all__: list[str] = [
+    "AddShader",
+    "AreaLight",
+    "CheckerboardTexture",
+    "ConductorShader",
+    "ConstantTexture",
+    "CubemapFaceCamera",
+    "CylindricalCamera",
+    "DiffuseShader",
+    "EmissionShader",
+    "Environment",
+    "EnvironmentLayer",
+    "EquirectangularCamera",
+    "FisheyeEquidistantCamera",
+    "FisheyeEquisolidCamera",
+    "FisheyePolynomialCamera",
+    "GlassShader",
+    "GlossyShader",
+    "HoldoutShader",
+    "Image",
+    "ImageTexture",
+    "Instance",
+    "InstanceTable",
+    "LightTable",
+    "Material",
+    "MaterialTable",
+    "Mesh",
+    "MetallicShader",
+    "MixShader",
+    "MultipleScatteringSky",
+    "OrthographicCamera",
+    "PassInfo",
+    "PerspectiveCamera",
+    "PointLight",
+    "PreethamSky",
+    "PrincipledShader",
+    "Progress",
+    "RefractionShader",
+    "RenderSettings",
+    "Scene",
+    "SceneError",
+    "SceneWarning",
+    "Session",
+    "ShapeTable",
+    "SheenShader",
+    "SingleScatteringSky",
+    "Sphere",
+    "SpotLight",
+    "SunLight",
+    "TextureRef",
+    "TextureTable",
+    "Tile",
+    "TileIterator",
+    "ToonShader",
+    "TranslucentShader",
+    "TransparentShader",
+    "VolumeShader",
+    "load_scene",
+    "look_at_camera",
+    "merge_sums",
+    "native_version",
+    "passes",
+]
+
 class SceneError(ValueError):
     """
     Something can't be rendered: the message names the item, the rule and the value.
     """
+
 class SceneWarning(UserWarning):
     """
     Part of a scene was changed or left out; the rest can be rendered.
     """
+
 class Mesh:
     """
     Triangles in object space, copied out of arrays and checked once. Read-only.
-    
+
     positions (V, 3) float32, metres; triangles (T, 3) uint32, counter-clockwise seen from the front; corner_normals
     (T, 3, 3) or (3T, 3) float32, unit length, without them the mesh is flat; uvs (T, 3, 2) or (3T, 2) float32;
     material_slots (T,) uint32, without them every triangle has slot 0. A mesh that deforms has motion_positions
     (K, V, 3) float32 and, where it has corner_normals, motion_corner_normals (K, T, 3, 3) or (K, 3T, 3) float32: those at K
     further times, equally spaced; the others are when the shutter opens, the last of these when it closes, and all is
-    linear between them. attributes are (name, domain, values): domain "vertex", "corner" or "face", values (N, 3) float32 for
-    each vertex, each corner of the triangles or each triangle. texture_space is where generated coordinates are 0, and how
-    far from there they are 1. Other real (or integer) types are converted.
+    linear between them. Other real (or integer) types are converted.
     Raises SceneError naming the array, the rule and the value.
     """
-    def __init__(self, positions: numpy.typing.ArrayLike, triangles: numpy.typing.ArrayLike, *, corner_normals: numpy.typing.ArrayLike | None = None, uvs: numpy.typing.ArrayLike | None = None, material_slots: numpy.typing.ArrayLike | None = None, motion_positions: numpy.typing.ArrayLike | None = None, motion_corner_normals: numpy.typing.ArrayLike | None = None, attributes: collections.abc.Sequence[tuple[str, str, numpy.typing.ArrayLike]] = [], texture_space: typing.Annotated[collections.abc.Sequence[typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"]], "FixedSize(2)"] | None = None) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def attribute_names(self) -> list[str]:
-        """
-        of the attributes
-        """
+    def __init__(
+        self,
+        positions: numpy.typing.ArrayLike,
+        triangles: numpy.typing.ArrayLike,
+        *,
+        corner_normals: numpy.typing.ArrayLike | None = None,
+        uvs: numpy.typing.ArrayLike | None = None,
+        material_slots: numpy.typing.ArrayLike | None = None,
+        motion_positions: numpy.typing.ArrayLike | None = None,
+        motion_corner_normals: numpy.typing.ArrayLike | None = None,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def corner_normals(self) -> numpy.typing.NDArray[numpy.float32] | None:
         """
@@ -67,11 +135,6 @@ class Mesh:
         (V, 3) float32, object space, metres
         """
     @property
-    def texture_space(self) -> typing.Annotated[list[typing.Annotated[list[float], "FixedSize(3)"]], "FixedSize(2)"]:
-        """
-        where generated coordinates are 0, and how far from there they are 1
-        """
-    @property
     def triangles(self) -> numpy.typing.NDArray[numpy.uint32]:
         """
         (T, 3) uint32, rows of positions
@@ -81,126 +144,124 @@ class Mesh:
         """
         (T, 3, 2) float32, or None
         """
+
 class Sphere:
     """
     A sphere, exact. u is longitude, v latitude, poles on z.
-    
+
     center: object space, metres
     radius: metres; above 0
     """
-    def __init__(self, center: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0), radius: float = 1.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        center: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        radius: float = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def center(self) -> tuple[float, float, float]:
         """
         object space, metres
         """
     @center.setter
-    def center(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def center(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def radius(self) -> float:
         """
         metres; above 0
         """
     @radius.setter
-    def radius(self, value: float) -> None:
-        ...
+    def radius(self, value: float) -> None: ...
+
 class TextureRef:
     """
     Stands for Scene.textures[index] where a colour or a share may vary. As a share it is the
     texture's luminance or, with `alpha`, its alpha.
     """
-    def __eq__(self, arg0: typing.Any) -> bool:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __init__(self, index: typing.SupportsInt | typing.SupportsIndex, alpha: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, index: typing.SupportsInt | typing.SupportsIndex, alpha: bool = False
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def alpha(self) -> bool:
-        ...
+    def alpha(self) -> bool: ...
     @property
-    def index(self) -> int:
-        ...
+    def index(self) -> int: ...
+
 class ConstantTexture:
     """
     The same colour everywhere.
-    
+
     color: scene-linear
     """
-    def __init__(self, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0)
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def color(self) -> tuple[float, float, float]:
         """
         scene-linear
         """
     @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+
 class CheckerboardTexture:
     """
     Squares of two colours over uv.
-    
+
     color0: scene-linear
     color1: scene-linear
     scale: multiplies uv
     delta: added to uv after scaling
     """
-    def __init__(self, color0: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0), color1: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0), scale: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0), delta: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        color0: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        color1: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        scale: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0),
+        delta: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def color0(self) -> tuple[float, float, float]:
         """
         scene-linear
         """
     @color0.setter
-    def color0(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def color0(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def color1(self) -> tuple[float, float, float]:
         """
         scene-linear
         """
     @color1.setter
-    def color1(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def color1(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def delta(self) -> tuple[float, float]:
         """
         added to uv after scaling
         """
     @delta.setter
-    def delta(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def delta(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def scale(self) -> tuple[float, float]:
         """
         multiplies uv
         """
     @scale.setter
-    def scale(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def scale(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+
 class Image:
     """
     A picture, which textures and the environment share.
-    
+
     pixels: (height, width, 1 to 4), row 0 at the bottom: float32, scene-linear; or uint8, where 255
     is 1, as `encoding` says: "srgb" or "linear". Copied.
     """
-    def __init__(self, pixels: numpy.typing.ArrayLike, encoding: str = 'srgb') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(self, pixels: numpy.typing.ArrayLike, encoding: str = "srgb") -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def encoding(self) -> str:
         """
@@ -211,1699 +272,179 @@ class Image:
         """
         (height, width, channels), row 0 at the bottom: float32 or uint8; read-only
         """
+
 class ImageTexture:
     """
     A picture over uv.
-    
+
     image: an Image, or its pixels
     interpolation: between pixels: linear, closest or cubic
     extension: beyond the edges: repeat, extend, clip or mirror
     uv_transform: of (u, v, 0), before the image is looked up
     divide_by_alpha: divides the colour by alpha, where the image's is multiplied by it
     """
-    def __init__(self, image: Image | numpy.typing.ArrayLike = ..., interpolation: str = 'linear', extension: str = 'repeat', uv_transform: numpy.typing.ArrayLike = ..., divide_by_alpha: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        image: Image | numpy.typing.ArrayLike = ...,
+        interpolation: str = "linear",
+        extension: str = "repeat",
+        uv_transform: numpy.typing.ArrayLike = ...,
+        divide_by_alpha: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def divide_by_alpha(self) -> bool:
         """
         divides the colour by alpha, where the image's is multiplied by it
         """
     @divide_by_alpha.setter
-    def divide_by_alpha(self, value: bool) -> None:
-        ...
+    def divide_by_alpha(self, value: bool) -> None: ...
     @property
     def extension(self) -> str:
         """
         beyond the edges: repeat, extend, clip or mirror
         """
     @extension.setter
-    def extension(self, value: str) -> None:
-        ...
+    def extension(self, value: str) -> None: ...
     @property
     def image(self) -> Image:
         """
         an Image, or its pixels
         """
     @image.setter
-    def image(self, value: Image | numpy.typing.ArrayLike) -> None:
-        ...
+    def image(self, value: Image | numpy.typing.ArrayLike) -> None: ...
     @property
     def interpolation(self) -> str:
         """
         between pixels: linear, closest or cubic
         """
     @interpolation.setter
-    def interpolation(self, value: str) -> None:
-        ...
+    def interpolation(self, value: str) -> None: ...
     @property
     def uv_transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         of (u, v, 0), before the image is looked up
         """
     @uv_transform.setter
-    def uv_transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
-class OperationRef:
-    """
-    Stands for the value of one of a material's operations.
-    """
-    def __eq__(self, arg0: typing.Any) -> bool:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __init__(self, index: typing.SupportsInt | typing.SupportsIndex) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def index(self) -> int:
-        ...
-class MathOperation:
-    """
-    A number from up to three.
-    
-    operation: named as in Blender's Math node, in small letters
-    a: first number
-    b: second, where there is one
-    c: third, where there is one
-    clamp: limits the result to [0, 1]
-    """
-    def __init__(self, operation: str = 'add', a: float | TextureRef | OperationRef = 0.5, b: float | TextureRef | OperationRef = 0.5, c: float | TextureRef | OperationRef = 0.5, clamp: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def a(self) -> float | TextureRef | OperationRef:
-        """
-        first number
-        """
-    @a.setter
-    def a(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def b(self) -> float | TextureRef | OperationRef:
-        """
-        second, where there is one
-        """
-    @b.setter
-    def b(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def c(self) -> float | TextureRef | OperationRef:
-        """
-        third, where there is one
-        """
-    @c.setter
-    def c(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def clamp(self) -> bool:
-        """
-        limits the result to [0, 1]
-        """
-    @clamp.setter
-    def clamp(self, value: bool) -> None:
-        ...
-    @property
-    def operation(self) -> str:
-        """
-        named as in Blender's Math node, in small letters
-        """
-    @operation.setter
-    def operation(self, value: str) -> None:
-        ...
-class VectorMathOperation:
-    """
-    A vector, or a number, from up to three vectors.
-    
-    operation: named as in Blender's Vector Math node, in small letters
-    a: first vector
-    b: second, where there is one
-    c: third, where there is one
-    scale: of scale; the refractive index of refract
-    """
-    def __init__(self, operation: str = 'add', a: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), b: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), c: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), scale: float | TextureRef | OperationRef = 1.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def a(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        first vector
-        """
-    @a.setter
-    def a(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def b(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        second, where there is one
-        """
-    @b.setter
-    def b(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def c(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        third, where there is one
-        """
-    @c.setter
-    def c(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def operation(self) -> str:
-        """
-        named as in Blender's Vector Math node, in small letters
-        """
-    @operation.setter
-    def operation(self, value: str) -> None:
-        ...
-    @property
-    def scale(self) -> float | TextureRef | OperationRef:
-        """
-        of scale; the refractive index of refract
-        """
-    @scale.setter
-    def scale(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-class MapRangeOperation:
-    """
-    Numbers from one range to another.
-    
-    value: each number of it by itself
-    from_min: becomes to_min
-    from_max: becomes to_max
-    to_min: what from_min becomes
-    to_max: what from_max becomes
-    steps: stepped: how many
-    interpolation: linear, stepped, smoothstep or smootherstep
-    clamp: limits linear and stepped results to the new range
-    """
-    def __init__(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0), from_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), from_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0), to_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), to_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0), steps: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (4.0, 4.0, 4.0), interpolation: str = 'linear', clamp: bool = True) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def clamp(self) -> bool:
-        """
-        limits linear and stepped results to the new range
-        """
-    @clamp.setter
-    def clamp(self, value: bool) -> None:
-        ...
-    @property
-    def from_max(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        becomes to_max
-        """
-    @from_max.setter
-    def from_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def from_min(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        becomes to_min
-        """
-    @from_min.setter
-    def from_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def interpolation(self) -> str:
-        """
-        linear, stepped, smoothstep or smootherstep
-        """
-    @interpolation.setter
-    def interpolation(self, value: str) -> None:
-        ...
-    @property
-    def steps(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        stepped: how many
-        """
-    @steps.setter
-    def steps(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def to_max(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        what from_max becomes
-        """
-    @to_max.setter
-    def to_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def to_min(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        what from_min becomes
-        """
-    @to_min.setter
-    def to_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def value(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        each number of it by itself
-        """
-    @value.setter
-    def value(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class ComponentOperation:
-    """
-    A number of a vector or colour.
-    
-    value: a vector or a colour
-    component: x, y, z, average or luminance
-    """
-    def __init__(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), component: str = 'x') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def component(self) -> str:
-        """
-        x, y, z, average or luminance
-        """
-    @component.setter
-    def component(self, value: str) -> None:
-        ...
-    @property
-    def value(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        a vector or a colour
-        """
-    @value.setter
-    def value(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class CombineOperation:
-    """
-    A vector or colour of three numbers.
-    
-    x: first number
-    y: second number
-    z: third number
-    """
-    def __init__(self, x: float | TextureRef | OperationRef = 0.0, y: float | TextureRef | OperationRef = 0.0, z: float | TextureRef | OperationRef = 0.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def x(self) -> float | TextureRef | OperationRef:
-        """
-        first number
-        """
-    @x.setter
-    def x(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def y(self) -> float | TextureRef | OperationRef:
-        """
-        second number
-        """
-    @y.setter
-    def y(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def z(self) -> float | TextureRef | OperationRef:
-        """
-        third number
-        """
-    @z.setter
-    def z(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-class MixOperation:
-    """
-    Two colours blended.
-    
-    blend: named as in Blender's Mix node, in small letters
-    factor: 0 is all a, 1 all b blended; only mix has one for each channel
-    a: first colour
-    b: second colour
-    clamp_factor: limits the factor to [0, 1]
-    clamp: limits the result to [0, 1]
-    """
-    def __init__(self, blend: str = 'mix', factor: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.5, 0.5, 0.5), a: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.5, 0.5, 0.5), b: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.5, 0.5, 0.5), clamp_factor: bool = True, clamp: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def a(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        first colour
-        """
-    @a.setter
-    def a(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def b(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        second colour
-        """
-    @b.setter
-    def b(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def blend(self) -> str:
-        """
-        named as in Blender's Mix node, in small letters
-        """
-    @blend.setter
-    def blend(self, value: str) -> None:
-        ...
-    @property
-    def clamp(self) -> bool:
-        """
-        limits the result to [0, 1]
-        """
-    @clamp.setter
-    def clamp(self, value: bool) -> None:
-        ...
-    @property
-    def clamp_factor(self) -> bool:
-        """
-        limits the factor to [0, 1]
-        """
-    @clamp_factor.setter
-    def clamp_factor(self, value: bool) -> None:
-        ...
-    @property
-    def factor(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        0 is all a, 1 all b blended; only mix has one for each channel
-        """
-    @factor.setter
-    def factor(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class TableOperation:
-    """
-    Colours looked up by their channels.
-    
-    value: what is looked up, each channel by itself
-    factor: 0 leaves the value as it is
-    colors: three numbers for each entry
-    minimum: the first entry's value
-    maximum: the last entry's value
-    interpolate: linearly between entries
-    extrapolate: beyond the ends straight on, else constant
-    """
-    def __init__(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.5, 0.5, 0.5), factor: float | TextureRef | OperationRef = 1.0, colors: collections.abc.Iterable[float] = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0], minimum: float = 0.0, maximum: float = 1.0, interpolate: bool = True, extrapolate: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def colors(self) -> list[float]:
-        """
-        three numbers for each entry
-        """
-    @colors.setter
-    def colors(self, value: collections.abc.Iterable[float]) -> None:
-        ...
-    @property
-    def extrapolate(self) -> bool:
-        """
-        beyond the ends straight on, else constant
-        """
-    @extrapolate.setter
-    def extrapolate(self, value: bool) -> None:
-        ...
-    @property
-    def factor(self) -> float | TextureRef | OperationRef:
-        """
-        0 leaves the value as it is
-        """
-    @factor.setter
-    def factor(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def interpolate(self) -> bool:
-        """
-        linearly between entries
-        """
-    @interpolate.setter
-    def interpolate(self, value: bool) -> None:
-        ...
-    @property
-    def maximum(self) -> float:
-        """
-        the last entry's value
-        """
-    @maximum.setter
-    def maximum(self, value: float) -> None:
-        ...
-    @property
-    def minimum(self) -> float:
-        """
-        the first entry's value
-        """
-    @minimum.setter
-    def minimum(self, value: float) -> None:
-        ...
-    @property
-    def value(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        what is looked up, each channel by itself
-        """
-    @value.setter
-    def value(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class ConvertColorOperation:
-    """
-    A colour in another model.
-    
-    color: three numbers
-    from: what they are: rgb, hsv or hsl
-    to: what they become: rgb, hsv or hsl
-    """
-    def __init__(self, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.8, 0.8, 0.8), from: str = 'rgb', to: str = 'hsv') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        three numbers
-        """
-    @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def from(self) -> str:
-        """
-        what they are: rgb, hsv or hsl
-        """
-    @from.setter
-    def from(self, value: str) -> None:
-        ...
-    @property
-    def to(self) -> str:
-        """
-        what they become: rgb, hsv or hsl
-        """
-    @to.setter
-    def to(self, value: str) -> None:
-        ...
-class HueSaturationOperation:
-    """
-    A colour with another hue, saturation, value.
-    
-    color: the colour to change
-    hue: 0.5 leaves it as it is; 1 is once around
-    saturation: multiplies the saturation
-    value: multiplies the value
-    factor: 0 leaves the colour as it is
-    """
-    def __init__(self, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.8, 0.8, 0.8), hue: float | TextureRef | OperationRef = 0.5, saturation: float | TextureRef | OperationRef = 1.0, value: float | TextureRef | OperationRef = 1.0, factor: float | TextureRef | OperationRef = 1.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        the colour to change
-        """
-    @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def factor(self) -> float | TextureRef | OperationRef:
-        """
-        0 leaves the colour as it is
-        """
-    @factor.setter
-    def factor(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def hue(self) -> float | TextureRef | OperationRef:
-        """
-        0.5 leaves it as it is; 1 is once around
-        """
-    @hue.setter
-    def hue(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def saturation(self) -> float | TextureRef | OperationRef:
-        """
-        multiplies the saturation
-        """
-    @saturation.setter
-    def saturation(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def value(self) -> float | TextureRef | OperationRef:
-        """
-        multiplies the value
-        """
-    @value.setter
-    def value(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-class ToneOperation:
-    """
-    A colour with each channel changed.
-    
-    change: gamma, bright_contrast or invert
-    color: the colour to change
-    a: the exponent, the brightness, or the share that is inverted
-    b: bright_contrast: the contrast
-    """
-    def __init__(self, change: str = 'gamma', color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.8, 0.8, 0.8), a: float | TextureRef | OperationRef = 1.0, b: float | TextureRef | OperationRef = 0.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def a(self) -> float | TextureRef | OperationRef:
-        """
-        the exponent, the brightness, or the share that is inverted
-        """
-    @a.setter
-    def a(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def b(self) -> float | TextureRef | OperationRef:
-        """
-        bright_contrast: the contrast
-        """
-    @b.setter
-    def b(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def change(self) -> str:
-        """
-        gamma, bright_contrast or invert
-        """
-    @change.setter
-    def change(self, value: str) -> None:
-        ...
-    @property
-    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        the colour to change
-        """
-    @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class MappingOperation:
-    """
-    A point scaled, rotated and moved.
-    
-    mapping: what is mapped: point, texture (backwards), vector or normal
-    vector: what is mapped
-    location: added
-    rotation: radians about x, then y, then z
-    scale: multiplied before the rotation
-    """
-    def __init__(self, mapping: str = 'point', vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), location: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), rotation: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), scale: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def location(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        added
-        """
-    @location.setter
-    def location(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def mapping(self) -> str:
-        """
-        what is mapped: point, texture (backwards), vector or normal
-        """
-    @mapping.setter
-    def mapping(self, value: str) -> None:
-        ...
-    @property
-    def rotation(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        radians about x, then y, then z
-        """
-    @rotation.setter
-    def rotation(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def scale(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        multiplied before the rotation
-        """
-    @scale.setter
-    def scale(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        what is mapped
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class RotateOperation:
-    """
-    A point rotated.
-    
-    about: axis_angle, x_axis, y_axis, z_axis or euler_xyz
-    vector: what is turned
-    center: stays where it is
-    axis: axis_angle: of any length
-    rotation: euler_xyz: radians about x, then y, then z
-    angle: radians
-    invert: turns the other way
-    """
-    def __init__(self, about: str = 'axis_angle', vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), center: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), axis: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 1.0), rotation: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), angle: float | TextureRef | OperationRef = 0.0, invert: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def about(self) -> str:
-        """
-        axis_angle, x_axis, y_axis, z_axis or euler_xyz
-        """
-    @about.setter
-    def about(self, value: str) -> None:
-        ...
-    @property
-    def angle(self) -> float | TextureRef | OperationRef:
-        """
-        radians
-        """
-    @angle.setter
-    def angle(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def axis(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        axis_angle: of any length
-        """
-    @axis.setter
-    def axis(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def center(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        stays where it is
-        """
-    @center.setter
-    def center(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def invert(self) -> bool:
-        """
-        turns the other way
-        """
-    @invert.setter
-    def invert(self, value: bool) -> None:
-        ...
-    @property
-    def rotation(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        euler_xyz: radians about x, then y, then z
-        """
-    @rotation.setter
-    def rotation(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        what is turned
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class TransformOperation:
-    """
-    A point transformed by a matrix.
-    
-    vector: what is transformed
-    transform: of columns, rows first
-    as: what it is: point, vector or normal
-    """
-    def __init__(self, vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), transform: numpy.typing.ArrayLike = ..., as: str = 'point') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def as(self) -> str:
-        """
-        what it is: point, vector or normal
-        """
-    @as.setter
-    def as(self, value: str) -> None:
-        ...
-    @property
-    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        of columns, rows first
-        """
-    @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        what is transformed
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class ChangeSpaceOperation:
-    """
-    A point from one space to another.
-    
-    vector: what is transformed
-    from: world, object or camera (where z points forwards)
-    to: world, object or camera (where z points forwards)
-    as: what it is: point, vector or normal
-    """
-    def __init__(self, vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), from: str = 'world', to: str = 'object', as: str = 'point') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def as(self) -> str:
-        """
-        what it is: point, vector or normal
-        """
-    @as.setter
-    def as(self, value: str) -> None:
-        ...
-    @property
-    def from(self) -> str:
-        """
-        world, object or camera (where z points forwards)
-        """
-    @from.setter
-    def from(self, value: str) -> None:
-        ...
-    @property
-    def to(self) -> str:
-        """
-        world, object or camera (where z points forwards)
-        """
-    @to.setter
-    def to(self, value: str) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        what is transformed
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class SurfaceOperation:
-    """
-    Something of the point that is shaded.
-    
-    value: what of the point: see docs/scene_format.md
-    """
-    def __init__(self, value: str = 'position') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def value(self) -> str:
-        """
-        what of the point: see docs/scene_format.md
-        """
-    @value.setter
-    def value(self, value: str) -> None:
-        ...
-class AttributeOperation:
-    """
-    A named attribute of the mesh.
-    
-    name: of the mesh's attribute
-    """
-    def __init__(self, name: str = '') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def name(self) -> str:
-        """
-        of the mesh's attribute
-        """
-    @name.setter
-    def name(self, value: str) -> None:
-        ...
-class FresnelOperation:
-    """
-    A weight by the angle of view.
-    
-    of: fresnel, or Blender's Layer Weight: layer_fresnel or facing
-    value: the refractive index, or the layer weight's blend
-    normal: world space; zero is the surface's own
-    """
-    def __init__(self, of: str = 'fresnel', value: float | TextureRef | OperationRef = 1.5, normal: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        world space; zero is the surface's own
-        """
-    @normal.setter
-    def normal(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def of(self) -> str:
-        """
-        fresnel, or Blender's Layer Weight: layer_fresnel or facing
-        """
-    @of.setter
-    def of(self, value: str) -> None:
-        ...
-    @property
-    def value(self) -> float | TextureRef | OperationRef:
-        """
-        the refractive index, or the layer weight's blend
-        """
-    @value.setter
-    def value(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-class NormalMapOperation:
-    """
-    A normal from a colour.
-    
-    color: the normal, halved and moved by a half
-    strength: 0 is the surface's own normal; at least 0
-    space: tangent, object or world
-    """
-    def __init__(self, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.5, 0.5, 1.0), strength: float | TextureRef | OperationRef = 1.0, space: str = 'tangent') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        the normal, halved and moved by a half
-        """
-    @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def space(self) -> str:
-        """
-        tangent, object or world
-        """
-    @space.setter
-    def space(self, value: str) -> None:
-        ...
-    @property
-    def strength(self) -> float | TextureRef | OperationRef:
-        """
-        0 is the surface's own normal; at least 0
-        """
-    @strength.setter
-    def strength(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-class BumpOperation:
-    """
-    A normal from a height.
-    
-    height: an operation that gives metres over distance
-    strength: 0 is the normal as it was; at least 0
-    distance: multiplies the height
-    normal: world space; zero is the surface's own
-    invert: bumps become dents
-    """
-    def __init__(self, height: float | TextureRef | OperationRef = 1.0, strength: float | TextureRef | OperationRef = 1.0, distance: float | TextureRef | OperationRef = 1.0, normal: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), invert: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def distance(self) -> float | TextureRef | OperationRef:
-        """
-        multiplies the height
-        """
-    @distance.setter
-    def distance(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def height(self) -> float | TextureRef | OperationRef:
-        """
-        an operation that gives metres over distance
-        """
-    @height.setter
-    def height(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def invert(self) -> bool:
-        """
-        bumps become dents
-        """
-    @invert.setter
-    def invert(self, value: bool) -> None:
-        ...
-    @property
-    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        world space; zero is the surface's own
-        """
-    @normal.setter
-    def normal(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def strength(self) -> float | TextureRef | OperationRef:
-        """
-        0 is the normal as it was; at least 0
-        """
-    @strength.setter
-    def strength(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-class TextureOperation:
-    """
-    A texture of the scene at any coordinates.
-    
-    texture: of the scene
-    vector: instead of uv
-    alpha: gives its alpha instead of its colour
-    """
-    def __init__(self, texture: int | None = None, vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), alpha: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def alpha(self) -> bool:
-        """
-        gives its alpha instead of its colour
-        """
-    @alpha.setter
-    def alpha(self, value: bool) -> None:
-        ...
-    @property
-    def texture(self) -> int | None:
-        """
-        of the scene
-        """
-    @texture.setter
-    def texture(self, value: int | None) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        instead of uv
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class CheckerOperation:
-    """
-    1 and 0 by turns.
-    
-    vector: where
-    scale: cells in one metre
-    """
-    def __init__(self, vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), scale: float | TextureRef | OperationRef = 5.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def scale(self) -> float | TextureRef | OperationRef:
-        """
-        cells in one metre
-        """
-    @scale.setter
-    def scale(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        where
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class GradientOperation:
-    """
-    A number that rises from 0 to 1.
-    
-    gradient: linear, quadratic, easing, diagonal, radial, quadratic_sphere or spherical
-    vector: where
-    """
-    def __init__(self, gradient: str = 'linear', vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def gradient(self) -> str:
-        """
-        linear, quadratic, easing, diagonal, radial, quadratic_sphere or spherical
-        """
-    @gradient.setter
-    def gradient(self, value: str) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        where
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class WaveOperation:
-    """
-    Bands or rings.
-    
-    rings: rings instead of bands
-    direction: x, y, z, diagonal (of bands) or spherical (of rings)
-    profile: sine, saw or triangle
-    vector: where
-    scale: multiplies the vector
-    distortion: by noise
-    detail: of the noise
-    detail_scale: of the noise
-    detail_roughness: of the noise
-    phase: moves the waves, radians
-    """
-    def __init__(self, rings: bool = False, direction: str = 'x', profile: str = 'sine', vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), scale: float | TextureRef | OperationRef = 5.0, distortion: float | TextureRef | OperationRef = 0.0, detail: float | TextureRef | OperationRef = 2.0, detail_scale: float | TextureRef | OperationRef = 1.0, detail_roughness: float | TextureRef | OperationRef = 0.5, phase: float | TextureRef | OperationRef = 0.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def detail(self) -> float | TextureRef | OperationRef:
-        """
-        of the noise
-        """
-    @detail.setter
-    def detail(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def detail_roughness(self) -> float | TextureRef | OperationRef:
-        """
-        of the noise
-        """
-    @detail_roughness.setter
-    def detail_roughness(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def detail_scale(self) -> float | TextureRef | OperationRef:
-        """
-        of the noise
-        """
-    @detail_scale.setter
-    def detail_scale(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def direction(self) -> str:
-        """
-        x, y, z, diagonal (of bands) or spherical (of rings)
-        """
-    @direction.setter
-    def direction(self, value: str) -> None:
-        ...
-    @property
-    def distortion(self) -> float | TextureRef | OperationRef:
-        """
-        by noise
-        """
-    @distortion.setter
-    def distortion(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def phase(self) -> float | TextureRef | OperationRef:
-        """
-        moves the waves, radians
-        """
-    @phase.setter
-    def phase(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def profile(self) -> str:
-        """
-        sine, saw or triangle
-        """
-    @profile.setter
-    def profile(self, value: str) -> None:
-        ...
-    @property
-    def rings(self) -> bool:
-        """
-        rings instead of bands
-        """
-    @rings.setter
-    def rings(self, value: bool) -> None:
-        ...
-    @property
-    def scale(self) -> float | TextureRef | OperationRef:
-        """
-        multiplies the vector
-        """
-    @scale.setter
-    def scale(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        where
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class MagicOperation:
-    """
-    Colours in waves.
-    
-    depth: iterations; in [0, 10]
-    vector: where
-    scale: multiplies the vector
-    distortion: how much
-    """
-    def __init__(self, depth: int = 2, vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), scale: float | TextureRef | OperationRef = 5.0, distortion: float | TextureRef | OperationRef = 1.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def depth(self) -> int:
-        """
-        iterations; in [0, 10]
-        """
-    @depth.setter
-    def depth(self, value: int) -> None:
-        ...
-    @property
-    def distortion(self) -> float | TextureRef | OperationRef:
-        """
-        how much
-        """
-    @distortion.setter
-    def distortion(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def scale(self) -> float | TextureRef | OperationRef:
-        """
-        multiplies the vector
-        """
-    @scale.setter
-    def scale(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        where
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class BrickOperation:
-    """
-    x: the mortar, y: the tint of the brick.
-    
-    vector: where
-    scale: multiplies the vector
-    mortar_size: 0 is none
-    mortar_smooth: 0 is a sharp edge
-    bias: -1 is all the first colour, 1 all the second
-    brick_width: of a brick
-    row_height: of a row
-    offset: of shifted rows
-    squash: of squashed rows
-    offset_frequency: how often rows are shifted; at least 0
-    squash_frequency: how often rows are squashed; at least 0
-    """
-    def __init__(self, vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), scale: float | TextureRef | OperationRef = 5.0, mortar_size: float | TextureRef | OperationRef = 0.02, mortar_smooth: float | TextureRef | OperationRef = 0.1, bias: float | TextureRef | OperationRef = 0.0, brick_width: float | TextureRef | OperationRef = 0.5, row_height: float | TextureRef | OperationRef = 0.25, offset: float = 0.5, squash: float = 1.0, offset_frequency: int = 2, squash_frequency: int = 2) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def bias(self) -> float | TextureRef | OperationRef:
-        """
-        -1 is all the first colour, 1 all the second
-        """
-    @bias.setter
-    def bias(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def brick_width(self) -> float | TextureRef | OperationRef:
-        """
-        of a brick
-        """
-    @brick_width.setter
-    def brick_width(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def mortar_size(self) -> float | TextureRef | OperationRef:
-        """
-        0 is none
-        """
-    @mortar_size.setter
-    def mortar_size(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def mortar_smooth(self) -> float | TextureRef | OperationRef:
-        """
-        0 is a sharp edge
-        """
-    @mortar_smooth.setter
-    def mortar_smooth(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def offset(self) -> float:
-        """
-        of shifted rows
-        """
-    @offset.setter
-    def offset(self, value: float) -> None:
-        ...
-    @property
-    def offset_frequency(self) -> int:
-        """
-        how often rows are shifted; at least 0
-        """
-    @offset_frequency.setter
-    def offset_frequency(self, value: int) -> None:
-        ...
-    @property
-    def row_height(self) -> float | TextureRef | OperationRef:
-        """
-        of a row
-        """
-    @row_height.setter
-    def row_height(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def scale(self) -> float | TextureRef | OperationRef:
-        """
-        multiplies the vector
-        """
-    @scale.setter
-    def scale(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def squash(self) -> float:
-        """
-        of squashed rows
-        """
-    @squash.setter
-    def squash(self, value: float) -> None:
-        ...
-    @property
-    def squash_frequency(self) -> int:
-        """
-        how often rows are squashed; at least 0
-        """
-    @squash_frequency.setter
-    def squash_frequency(self, value: int) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        where
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class NoiseOperation:
-    """
-    Smooth noise.
-    
-    noise: multifractal, fbm, hybrid_multifractal, ridged_multifractal or hetero_terrain
-    dimensions: of w alone, of the vector, or of both; in [1, 4]
-    vector: where
-    w: of one and of four dimensions
-    scale: multiplies both
-    detail: octaves, less one
-    roughness: an octave's share of the one before
-    lacunarity: an octave's frequency over that of the one before
-    offset: of hybrid, ridged and hetero terrain
-    gain: of hybrid and ridged
-    distortion: how far noise moves the point
-    normalize: fbm: within [0, 1]
-    color: gives three noises instead of one
-    """
-    def __init__(self, noise: str = 'fbm', dimensions: int = 3, vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), w: float | TextureRef | OperationRef = 0.0, scale: float | TextureRef | OperationRef = 5.0, detail: float | TextureRef | OperationRef = 2.0, roughness: float | TextureRef | OperationRef = 0.5, lacunarity: float | TextureRef | OperationRef = 2.0, offset: float | TextureRef | OperationRef = 0.0, gain: float | TextureRef | OperationRef = 1.0, distortion: float | TextureRef | OperationRef = 0.0, normalize: bool = True, color: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def color(self) -> bool:
-        """
-        gives three noises instead of one
-        """
-    @color.setter
-    def color(self, value: bool) -> None:
-        ...
-    @property
-    def detail(self) -> float | TextureRef | OperationRef:
-        """
-        octaves, less one
-        """
-    @detail.setter
-    def detail(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def dimensions(self) -> int:
-        """
-        of w alone, of the vector, or of both; in [1, 4]
-        """
-    @dimensions.setter
-    def dimensions(self, value: int) -> None:
-        ...
-    @property
-    def distortion(self) -> float | TextureRef | OperationRef:
-        """
-        how far noise moves the point
-        """
-    @distortion.setter
-    def distortion(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def gain(self) -> float | TextureRef | OperationRef:
-        """
-        of hybrid and ridged
-        """
-    @gain.setter
-    def gain(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def lacunarity(self) -> float | TextureRef | OperationRef:
-        """
-        an octave's frequency over that of the one before
-        """
-    @lacunarity.setter
-    def lacunarity(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def noise(self) -> str:
-        """
-        multifractal, fbm, hybrid_multifractal, ridged_multifractal or hetero_terrain
-        """
-    @noise.setter
-    def noise(self, value: str) -> None:
-        ...
-    @property
-    def normalize(self) -> bool:
-        """
-        fbm: within [0, 1]
-        """
-    @normalize.setter
-    def normalize(self, value: bool) -> None:
-        ...
-    @property
-    def offset(self) -> float | TextureRef | OperationRef:
-        """
-        of hybrid, ridged and hetero terrain
-        """
-    @offset.setter
-    def offset(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def roughness(self) -> float | TextureRef | OperationRef:
-        """
-        an octave's share of the one before
-        """
-    @roughness.setter
-    def roughness(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def scale(self) -> float | TextureRef | OperationRef:
-        """
-        multiplies both
-        """
-    @scale.setter
-    def scale(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        where
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def w(self) -> float | TextureRef | OperationRef:
-        """
-        of one and of four dimensions
-        """
-    @w.setter
-    def w(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-class WhiteNoiseOperation:
-    """
-    A random number for each point.
-    
-    dimensions: of w alone, of the vector, or of both; in [1, 4]
-    vector: where
-    w: of one and of four dimensions
-    color: gives three numbers instead of one
-    """
-    def __init__(self, dimensions: int = 3, vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), w: float | TextureRef | OperationRef = 0.0, color: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def color(self) -> bool:
-        """
-        gives three numbers instead of one
-        """
-    @color.setter
-    def color(self, value: bool) -> None:
-        ...
-    @property
-    def dimensions(self) -> int:
-        """
-        of w alone, of the vector, or of both; in [1, 4]
-        """
-    @dimensions.setter
-    def dimensions(self, value: int) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        where
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def w(self) -> float | TextureRef | OperationRef:
-        """
-        of one and of four dimensions
-        """
-    @w.setter
-    def w(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-class VoronoiOperation:
-    """
-    Cells around random points.
-    
-    feature: f1, f2, smooth_f1, distance_to_edge or n_sphere_radius
-    metric: euclidean, manhattan, chebychev or minkowski
-    output: distance (also the edge's, or the radius), color, position or w
-    dimensions: of w alone, of the vector, or of both; in [1, 4]
-    vector: where
-    w: of one and of four dimensions
-    scale: multiplies both
-    detail: octaves, less one
-    roughness: an octave's share of the one before
-    lacunarity: an octave's frequency over that of the one before
-    smoothness: of smooth_f1
-    exponent: of minkowski
-    randomness: 0 is a grid
-    normalize: distances about within [0, 1]
-    """
-    def __init__(self, feature: str = 'f1', metric: str = 'euclidean', output: str = 'distance', dimensions: int = 3, vector: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), w: float | TextureRef | OperationRef = 0.0, scale: float | TextureRef | OperationRef = 5.0, detail: float | TextureRef | OperationRef = 0.0, roughness: float | TextureRef | OperationRef = 0.5, lacunarity: float | TextureRef | OperationRef = 2.0, smoothness: float | TextureRef | OperationRef = 1.0, exponent: float | TextureRef | OperationRef = 0.5, randomness: float | TextureRef | OperationRef = 1.0, normalize: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def detail(self) -> float | TextureRef | OperationRef:
-        """
-        octaves, less one
-        """
-    @detail.setter
-    def detail(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def dimensions(self) -> int:
-        """
-        of w alone, of the vector, or of both; in [1, 4]
-        """
-    @dimensions.setter
-    def dimensions(self, value: int) -> None:
-        ...
-    @property
-    def exponent(self) -> float | TextureRef | OperationRef:
-        """
-        of minkowski
-        """
-    @exponent.setter
-    def exponent(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def feature(self) -> str:
-        """
-        f1, f2, smooth_f1, distance_to_edge or n_sphere_radius
-        """
-    @feature.setter
-    def feature(self, value: str) -> None:
-        ...
-    @property
-    def lacunarity(self) -> float | TextureRef | OperationRef:
-        """
-        an octave's frequency over that of the one before
-        """
-    @lacunarity.setter
-    def lacunarity(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def metric(self) -> str:
-        """
-        euclidean, manhattan, chebychev or minkowski
-        """
-    @metric.setter
-    def metric(self, value: str) -> None:
-        ...
-    @property
-    def normalize(self) -> bool:
-        """
-        distances about within [0, 1]
-        """
-    @normalize.setter
-    def normalize(self, value: bool) -> None:
-        ...
-    @property
-    def output(self) -> str:
-        """
-        distance (also the edge's, or the radius), color, position or w
-        """
-    @output.setter
-    def output(self, value: str) -> None:
-        ...
-    @property
-    def randomness(self) -> float | TextureRef | OperationRef:
-        """
-        0 is a grid
-        """
-    @randomness.setter
-    def randomness(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def roughness(self) -> float | TextureRef | OperationRef:
-        """
-        an octave's share of the one before
-        """
-    @roughness.setter
-    def roughness(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def scale(self) -> float | TextureRef | OperationRef:
-        """
-        multiplies both
-        """
-    @scale.setter
-    def scale(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def smoothness(self) -> float | TextureRef | OperationRef:
-        """
-        of smooth_f1
-        """
-    @smoothness.setter
-    def smoothness(self, value: float | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        where
-        """
-    @vector.setter
-    def vector(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def w(self) -> float | TextureRef | OperationRef:
-        """
-        of one and of four dimensions
-        """
-    @w.setter
-    def w(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def uv_transform(self, value: numpy.typing.ArrayLike) -> None: ...
+
 class DiffuseShader:
     """
-    Lambert's reflection.
-    
+    Diffuse reflection, Lambert's or by a rough surface.
+
     color: reflectance; in [0, 1]
     twosided: whether the back reflects too
-    normal: in world space, on the viewer's side; zero is the surface's own
+    roughness: 0 is Lambert's reflection, above that Oren and Nayar's, which keeps all light; in [0, 1]
     """
-    def __init__(self, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.8, 0.8, 0.8), twosided: bool = False, normal: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.8,
+            0.8,
+            0.8,
+        ),
+        twosided: bool = False,
+        roughness: float = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def color(self) -> tuple[float, float, float] | TextureRef:
         """
         reflectance; in [0, 1]
         """
     @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
     @property
-    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def roughness(self) -> float:
         """
-        in world space, on the viewer's side; zero is the surface's own
+        0 is Lambert's reflection, above that Oren and Nayar's, which keeps all light; in [0, 1]
         """
-    @normal.setter
-    def normal(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    @roughness.setter
+    def roughness(self, value: float) -> None: ...
     @property
     def twosided(self) -> bool:
         """
         whether the back reflects too
         """
     @twosided.setter
-    def twosided(self, value: bool) -> None:
-        ...
+    def twosided(self, value: bool) -> None: ...
+
 class GlossyShader:
     """
     GGX reflection tinted by a colour; a mirror at roughness 0.
-    
+
     color: reflectance; in [0, 1]
     roughness: the microfacets' alpha is its square; in [0, 1]
-    distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
-    normal: in world space, on the viewer's side; zero is the surface's own
+    distribution: how the microfacets are turned: multi_ggx, ggx, beckmann or ashikhmin_shirley
+    anisotropy: above 0 smoother along the tangent, below 0 across; in [-1, 1]
+    rotation: of that about the normal, in whole turns
+    tangent: what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
     """
-    def __init__(self, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.8, 0.8, 0.8), roughness: float | TextureRef | OperationRef = 0.5, distribution: str = 'multi_ggx', normal: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.8,
+            0.8,
+            0.8,
+        ),
+        roughness: float = 0.5,
+        distribution: str = "multi_ggx",
+        anisotropy: float = 0.0,
+        rotation: float = 0.0,
+        tangent: str = "uv",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def anisotropy(self) -> float:
+        """
+        above 0 smoother along the tangent, below 0 across; in [-1, 1]
+        """
+    @anisotropy.setter
+    def anisotropy(self, value: float) -> None: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef:
         """
         reflectance; in [0, 1]
         """
     @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
     @property
     def distribution(self) -> str:
         """
-        how the microfacets are turned: multi_ggx, ggx or beckmann
+        how the microfacets are turned: multi_ggx, ggx, beckmann or ashikhmin_shirley
         """
     @distribution.setter
-    def distribution(self, value: str) -> None:
-        ...
+    def distribution(self, value: str) -> None: ...
     @property
-    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def rotation(self) -> float:
         """
-        in world space, on the viewer's side; zero is the surface's own
+        of that about the normal, in whole turns
         """
-    @normal.setter
-    def normal(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    @rotation.setter
+    def rotation(self, value: float) -> None: ...
     @property
-    def roughness(self) -> float | TextureRef | OperationRef:
+    def roughness(self) -> float:
         """
         the microfacets' alpha is its square; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def roughness(self, value: float) -> None: ...
+    @property
+    def tangent(self) -> str:
+        """
+        what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+        """
+    @tangent.setter
+    def tangent(self, value: str) -> None: ...
+
 class ConductorShader:
     """
     A metal with measured refractive indices.
-    
+
     reflectance: multiplies the Fresnel reflectance; in [0, 1]
     alpha_x: width of the microfacets along u; in [0, 1]
     alpha_y: width of the microfacets along v; in [0, 1]
@@ -1912,258 +453,550 @@ class ConductorShader:
     k: extinction of the metal; at least 0
     ggx: GGX microfacets instead of Beckmann's
     """
-    def __init__(self, reflectance: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0), alpha_x: float = 0.1, alpha_y: float = 0.1, etaI: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0), etaT: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.200438, 0.924033, 1.10221), k: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (3.91295, 2.45285, 2.14219), ggx: bool = False) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        reflectance: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        alpha_x: float = 0.1,
+        alpha_y: float = 0.1,
+        etaI: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        etaT: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            0.200438,
+            0.924033,
+            1.10221,
+        ),
+        k: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (3.91295, 2.45285, 2.14219),
+        ggx: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def alpha_x(self) -> float:
         """
         width of the microfacets along u; in [0, 1]
         """
     @alpha_x.setter
-    def alpha_x(self, value: float) -> None:
-        ...
+    def alpha_x(self, value: float) -> None: ...
     @property
     def alpha_y(self) -> float:
         """
         width of the microfacets along v; in [0, 1]
         """
     @alpha_y.setter
-    def alpha_y(self, value: float) -> None:
-        ...
+    def alpha_y(self, value: float) -> None: ...
     @property
     def etaI(self) -> tuple[float, float, float]:
         """
         refractive index outside; above 0
         """
     @etaI.setter
-    def etaI(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def etaI(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def etaT(self) -> tuple[float, float, float]:
         """
         refractive index of the metal; at least 0
         """
     @etaT.setter
-    def etaT(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def etaT(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def ggx(self) -> bool:
         """
         GGX microfacets instead of Beckmann's
         """
     @ggx.setter
-    def ggx(self, value: bool) -> None:
-        ...
+    def ggx(self, value: bool) -> None: ...
     @property
     def k(self) -> tuple[float, float, float]:
         """
         extinction of the metal; at least 0
         """
     @k.setter
-    def k(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def k(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
-    def reflectance(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def reflectance(self) -> tuple[float, float, float] | TextureRef:
         """
         multiplies the Fresnel reflectance; in [0, 1]
         """
     @reflectance.setter
-    def reflectance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-class RefractionShader:
+    def reflectance(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+
+class MetallicShader:
     """
-    Refraction without Fresnel reflection.
-    
-    color: tint of the refracted light; in [0, 1]
-    eta: refractive index inside over outside; above 0
+    A metal by two colours or by measured refractive indices.
+
+    model: f82: by base_color and edge_tint; physical_conductor: by ior and extinction
+    base_color: reflectance where it is met head on; in [0, 1]
+    edge_tint: multiplies the reflectance near grazing incidence; in [0, 1]
+    ior: refractive index of the metal; at least 0
+    extinction: of the metal; at least 0
     roughness: the microfacets' alpha is its square; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
-    total_reflection: mirror light past the critical angle, or lose it as Blender does
-    normal: in world space, on the viewer's side; zero is the surface's own
+    anisotropy: above 0 smoother across the tangent; in [0, 1]
+    rotation: of that about the normal, in whole turns
+    tangent: what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+    thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
+    thin_film_ior: refractive index of the film; above 0
     """
-    def __init__(self, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0), eta: float | TextureRef | OperationRef = 1.5, roughness: float | TextureRef | OperationRef = 0.0, distribution: str = 'ggx', total_reflection: bool = True, normal: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        model: str = "f82",
+        base_color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.617,
+            0.577,
+            0.54,
+        ),
+        edge_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.695,
+            0.726,
+            0.77,
+        ),
+        ior: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (2.757, 2.513, 2.231),
+        extinction: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            3.867,
+            3.404,
+            3.009,
+        ),
+        roughness: float = 0.5,
+        distribution: str = "multi_ggx",
+        anisotropy: float = 0.0,
+        rotation: float = 0.0,
+        tangent: str = "uv",
+        thin_film_thickness: float = 0.0,
+        thin_film_ior: float = 1.33,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def anisotropy(self) -> float:
         """
-        tint of the refracted light; in [0, 1]
+        above 0 smoother across the tangent; in [0, 1]
         """
-    @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    @anisotropy.setter
+    def anisotropy(self, value: float) -> None: ...
+    @property
+    def base_color(self) -> tuple[float, float, float] | TextureRef:
+        """
+        reflectance where it is met head on; in [0, 1]
+        """
+    @base_color.setter
+    def base_color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
     @property
     def distribution(self) -> str:
         """
         how the microfacets are turned: multi_ggx, ggx or beckmann
         """
     @distribution.setter
-    def distribution(self, value: str) -> None:
-        ...
+    def distribution(self, value: str) -> None: ...
     @property
-    def eta(self) -> float | TextureRef | OperationRef:
+    def edge_tint(self) -> tuple[float, float, float] | TextureRef:
         """
-        refractive index inside over outside; above 0
+        multiplies the reflectance near grazing incidence; in [0, 1]
         """
-    @eta.setter
-    def eta(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    @edge_tint.setter
+    def edge_tint(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
     @property
-    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def extinction(self) -> tuple[float, float, float]:
         """
-        in world space, on the viewer's side; zero is the surface's own
+        of the metal; at least 0
         """
-    @normal.setter
-    def normal(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    @extinction.setter
+    def extinction(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
-    def roughness(self) -> float | TextureRef | OperationRef:
+    def ior(self) -> tuple[float, float, float]:
+        """
+        refractive index of the metal; at least 0
+        """
+    @ior.setter
+    def ior(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    @property
+    def model(self) -> str:
+        """
+        f82: by base_color and edge_tint; physical_conductor: by ior and extinction
+        """
+    @model.setter
+    def model(self, value: str) -> None: ...
+    @property
+    def rotation(self) -> float:
+        """
+        of that about the normal, in whole turns
+        """
+    @rotation.setter
+    def rotation(self, value: float) -> None: ...
+    @property
+    def roughness(self) -> float:
         """
         the microfacets' alpha is its square; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def roughness(self, value: float) -> None: ...
+    @property
+    def tangent(self) -> str:
+        """
+        what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+        """
+    @tangent.setter
+    def tangent(self, value: str) -> None: ...
+    @property
+    def thin_film_ior(self) -> float:
+        """
+        refractive index of the film; above 0
+        """
+    @thin_film_ior.setter
+    def thin_film_ior(self, value: float) -> None: ...
+    @property
+    def thin_film_thickness(self) -> float:
+        """
+        of a thin film on it, nanometres; 0 is none; at least 0
+        """
+    @thin_film_thickness.setter
+    def thin_film_thickness(self, value: float) -> None: ...
+
+class TranslucentShader:
+    """
+    Diffuse transmission.
+
+    color: what goes through, spread evenly; in [0, 1]
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.8,
+            0.8,
+            0.8,
+        ),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef:
+        """
+        what goes through, spread evenly; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+
+class SheenShader:
+    """
+    Light that fibres scatter at grazing angles.
+
+    color: tint; in [0, 1]
+    roughness: how far from grazing it is seen; in [0, 1]
+    model: microfiber or ashikhmin
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.8,
+            0.8,
+            0.8,
+        ),
+        roughness: float = 0.5,
+        model: str = "microfiber",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef:
+        """
+        tint; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def model(self) -> str:
+        """
+        microfiber or ashikhmin
+        """
+    @model.setter
+    def model(self, value: str) -> None: ...
+    @property
+    def roughness(self) -> float:
+        """
+        how far from grazing it is seen; in [0, 1]
+        """
+    @roughness.setter
+    def roughness(self, value: float) -> None: ...
+
+class ToonShader:
+    """
+    A spot of even brightness.
+
+    color: tint; in [0, 1]
+    component: diffuse: around the normal; glossy: the reflection
+    size: of the spot, in right angles; in [0, 1]
+    smooth: width of the soft rim, in right angles; in [0, 1]
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.8,
+            0.8,
+            0.8,
+        ),
+        component: str = "diffuse",
+        size: float = 0.5,
+        smooth: float = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef:
+        """
+        tint; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def component(self) -> str:
+        """
+        diffuse: around the normal; glossy: the reflection
+        """
+    @component.setter
+    def component(self, value: str) -> None: ...
+    @property
+    def size(self) -> float:
+        """
+        of the spot, in right angles; in [0, 1]
+        """
+    @size.setter
+    def size(self, value: float) -> None: ...
+    @property
+    def smooth(self) -> float:
+        """
+        width of the soft rim, in right angles; in [0, 1]
+        """
+    @smooth.setter
+    def smooth(self, value: float) -> None: ...
+
+class RefractionShader:
+    """
+    Refraction without Fresnel reflection.
+
+    color: tint of the refracted light; in [0, 1]
+    eta: refractive index inside over outside; above 0
+    roughness: the microfacets' alpha is its square; in [0, 1]
+    distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
+    total_reflection: mirror light past the critical angle, or lose it as Blender does
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        eta: float = 1.5,
+        roughness: float = 0.0,
+        distribution: str = "ggx",
+        total_reflection: bool = True,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef:
+        """
+        tint of the refracted light; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def distribution(self) -> str:
+        """
+        how the microfacets are turned: multi_ggx, ggx or beckmann
+        """
+    @distribution.setter
+    def distribution(self, value: str) -> None: ...
+    @property
+    def eta(self) -> float:
+        """
+        refractive index inside over outside; above 0
+        """
+    @eta.setter
+    def eta(self, value: float) -> None: ...
+    @property
+    def roughness(self) -> float:
+        """
+        the microfacets' alpha is its square; in [0, 1]
+        """
+    @roughness.setter
+    def roughness(self, value: float) -> None: ...
     @property
     def total_reflection(self) -> bool:
         """
         mirror light past the critical angle, or lose it as Blender does
         """
     @total_reflection.setter
-    def total_reflection(self, value: bool) -> None:
-        ...
+    def total_reflection(self, value: bool) -> None: ...
+
 class GlassShader:
     """
     Fresnel reflection and refraction.
-    
+
     R: tint of the reflected light; in [0, 1]
     T: tint of the refracted light; in [0, 1]
     eta: refractive index inside over outside; above 0
     roughness: the microfacets' alpha is its square; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
-    normal: in world space, on the viewer's side; zero is the surface's own
+    thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
+    thin_film_ior: refractive index of the film; above 0
     """
-    def __init__(self, R: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0), T: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0), eta: float | TextureRef | OperationRef = 1.5, roughness: float | TextureRef | OperationRef = 0.0, distribution: str = 'multi_ggx', normal: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        R: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (1.0, 1.0, 1.0),
+        T: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (1.0, 1.0, 1.0),
+        eta: float = 1.5,
+        roughness: float = 0.0,
+        distribution: str = "multi_ggx",
+        thin_film_thickness: float = 0.0,
+        thin_film_ior: float = 1.33,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def R(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def R(self) -> tuple[float, float, float] | TextureRef:
         """
         tint of the reflected light; in [0, 1]
         """
     @R.setter
-    def R(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    def R(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
     @property
-    def T(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def T(self) -> tuple[float, float, float] | TextureRef:
         """
         tint of the refracted light; in [0, 1]
         """
     @T.setter
-    def T(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    def T(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
     @property
     def distribution(self) -> str:
         """
         how the microfacets are turned: multi_ggx, ggx or beckmann
         """
     @distribution.setter
-    def distribution(self, value: str) -> None:
-        ...
+    def distribution(self, value: str) -> None: ...
     @property
-    def eta(self) -> float | TextureRef | OperationRef:
+    def eta(self) -> float:
         """
         refractive index inside over outside; above 0
         """
     @eta.setter
-    def eta(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def eta(self, value: float) -> None: ...
     @property
-    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        in world space, on the viewer's side; zero is the surface's own
-        """
-    @normal.setter
-    def normal(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def roughness(self) -> float | TextureRef | OperationRef:
+    def roughness(self) -> float:
         """
         the microfacets' alpha is its square; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def roughness(self, value: float) -> None: ...
+    @property
+    def thin_film_ior(self) -> float:
+        """
+        refractive index of the film; above 0
+        """
+    @thin_film_ior.setter
+    def thin_film_ior(self, value: float) -> None: ...
+    @property
+    def thin_film_thickness(self) -> float:
+        """
+        of a thin film on it, nanometres; 0 is none; at least 0
+        """
+    @thin_film_thickness.setter
+    def thin_film_thickness(self, value: float) -> None: ...
+
 class TransparentShader:
     """
     Light passes straight through, tinted.
-    
+
     color: what passes straight through; in [0, 1]
     """
-    def __init__(self, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def color(self) -> tuple[float, float, float] | TextureRef:
         """
         what passes straight through; in [0, 1]
         """
     @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    def color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+
 class EmissionShader:
     """
     A surface that shines.
-    
+
     radiance: W / (m^2 sr), each direction alike; at least 0
     twosided: whether the back emits too
     strength: multiplies the radiance; at least 0
     """
-    def __init__(self, radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (1.0, 1.0, 1.0), twosided: bool = True, strength: float | TextureRef | OperationRef = 1.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        twosided: bool = True,
+        strength: float = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def radiance(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def radiance(self) -> tuple[float, float, float] | TextureRef:
         """
         W / (m^2 sr), each direction alike; at least 0
         """
     @radiance.setter
-    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    def radiance(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
     @property
-    def strength(self) -> float | TextureRef | OperationRef:
+    def strength(self) -> float:
         """
         multiplies the radiance; at least 0
         """
     @strength.setter
-    def strength(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def strength(self, value: float) -> None: ...
     @property
     def twosided(self) -> bool:
         """
         whether the back emits too
         """
     @twosided.setter
-    def twosided(self, value: bool) -> None:
-        ...
+    def twosided(self, value: bool) -> None: ...
+
 class HoldoutShader:
     """
     A hole in the picture for what the camera sees.
     """
-    def __init__(self) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(self) -> None: ...
+    def __repr__(self) -> str: ...
+
 class PrincipledShader:
     """
-    Blender's Principled BSDF.
-    
+    Blender's Principled BSDF but for subsurface scattering.
+
     base_color: reflectance of diffuse and metal, tint of glass; in [0, 1]
     metallic: 0 a dielectric, 1 a metal; in [0, 1]
     roughness: the microfacets' alpha is its square; in [0, 1]
@@ -2174,104 +1007,252 @@ class PrincipledShader:
     emission_strength: multiplies the emission; at least 0
     alpha: opacity; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
-    normal: in world space, on the viewer's side; zero is the surface's own
+    diffuse_roughness: as of the diffuse shader; in [0, 1]
+    specular_tint: of a dielectric's reflection where it is met head on, of a metal's near grazing incidence; in [0, 1]
+    anisotropic: above 0 smoother across the tangent; in [0, 1]
+    anisotropic_rotation: of that about the normal, in whole turns
+    tangent: what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+    sheen_weight: of the fibres on top of all; in [0, 1]
+    sheen_roughness: as of the sheen shader; in [0, 1]
+    sheen_tint: colour of the fibres; in [0, 1]
+    coat_weight: of the clear coat beneath the sheen; in [0, 1]
+    coat_roughness: of the coat; in [0, 1]
+    coat_ior: refractive index of the coat; at least 1
+    coat_tint: what the coat lets through of light from straight above; in [0, 1]
+    thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
+    thin_film_ior: refractive index of the film; above 0
     """
-    def __init__(self, base_color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.8, 0.8, 0.8), metallic: float | TextureRef | OperationRef = 0.0, roughness: float | TextureRef | OperationRef = 0.5, ior: float | TextureRef | OperationRef = 1.5, transmission: float | TextureRef | OperationRef = 0.0, specular_ior_level: float | TextureRef | OperationRef = 0.5, emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0), emission_strength: float | TextureRef | OperationRef = 1.0, alpha: float | TextureRef | OperationRef = 1.0, distribution: str = 'multi_ggx', normal: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (0.0, 0.0, 0.0)) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        base_color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.8,
+            0.8,
+            0.8,
+        ),
+        metallic: float = 0.0,
+        roughness: float = 0.5,
+        ior: float = 1.5,
+        transmission: float = 0.0,
+        specular_ior_level: float = 0.5,
+        emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            0.0,
+            0.0,
+            0.0,
+        ),
+        emission_strength: float = 1.0,
+        alpha: float | TextureRef = 1.0,
+        distribution: str = "multi_ggx",
+        diffuse_roughness: float = 0.0,
+        specular_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        anisotropic: float = 0.0,
+        anisotropic_rotation: float = 0.0,
+        tangent: str = "uv",
+        sheen_weight: float = 0.0,
+        sheen_roughness: float = 0.5,
+        sheen_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        coat_weight: float = 0.0,
+        coat_roughness: float = 0.03,
+        coat_ior: float = 1.5,
+        coat_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        thin_film_thickness: float = 0.0,
+        thin_film_ior: float = 1.33,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def alpha(self) -> float | TextureRef | OperationRef:
+    def alpha(self) -> float | TextureRef:
         """
         opacity; in [0, 1]
         """
     @alpha.setter
-    def alpha(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def alpha(self, value: float | TextureRef) -> None: ...
     @property
-    def base_color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def anisotropic(self) -> float:
+        """
+        above 0 smoother across the tangent; in [0, 1]
+        """
+    @anisotropic.setter
+    def anisotropic(self, value: float) -> None: ...
+    @property
+    def anisotropic_rotation(self) -> float:
+        """
+        of that about the normal, in whole turns
+        """
+    @anisotropic_rotation.setter
+    def anisotropic_rotation(self, value: float) -> None: ...
+    @property
+    def base_color(self) -> tuple[float, float, float] | TextureRef:
         """
         reflectance of diffuse and metal, tint of glass; in [0, 1]
         """
     @base_color.setter
-    def base_color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    def base_color(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def coat_ior(self) -> float:
+        """
+        refractive index of the coat; at least 1
+        """
+    @coat_ior.setter
+    def coat_ior(self, value: float) -> None: ...
+    @property
+    def coat_roughness(self) -> float:
+        """
+        of the coat; in [0, 1]
+        """
+    @coat_roughness.setter
+    def coat_roughness(self, value: float) -> None: ...
+    @property
+    def coat_tint(self) -> tuple[float, float, float] | TextureRef:
+        """
+        what the coat lets through of light from straight above; in [0, 1]
+        """
+    @coat_tint.setter
+    def coat_tint(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def coat_weight(self) -> float:
+        """
+        of the clear coat beneath the sheen; in [0, 1]
+        """
+    @coat_weight.setter
+    def coat_weight(self, value: float) -> None: ...
+    @property
+    def diffuse_roughness(self) -> float:
+        """
+        as of the diffuse shader; in [0, 1]
+        """
+    @diffuse_roughness.setter
+    def diffuse_roughness(self, value: float) -> None: ...
     @property
     def distribution(self) -> str:
         """
         how the microfacets are turned: multi_ggx, ggx or beckmann
         """
     @distribution.setter
-    def distribution(self, value: str) -> None:
-        ...
+    def distribution(self, value: str) -> None: ...
     @property
-    def emission(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+    def emission(self) -> tuple[float, float, float] | TextureRef:
         """
         W / (m^2 sr), both sides; at least 0
         """
     @emission.setter
-    def emission(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
+    def emission(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
     @property
-    def emission_strength(self) -> float | TextureRef | OperationRef:
+    def emission_strength(self) -> float:
         """
         multiplies the emission; at least 0
         """
     @emission_strength.setter
-    def emission_strength(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def emission_strength(self, value: float) -> None: ...
     @property
-    def ior(self) -> float | TextureRef | OperationRef:
+    def ior(self) -> float:
         """
         refractive index; at least 1
         """
     @ior.setter
-    def ior(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def ior(self, value: float) -> None: ...
     @property
-    def metallic(self) -> float | TextureRef | OperationRef:
+    def metallic(self) -> float:
         """
         0 a dielectric, 1 a metal; in [0, 1]
         """
     @metallic.setter
-    def metallic(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def metallic(self, value: float) -> None: ...
     @property
-    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
-        """
-        in world space, on the viewer's side; zero is the surface's own
-        """
-    @normal.setter
-    def normal(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef) -> None:
-        ...
-    @property
-    def roughness(self) -> float | TextureRef | OperationRef:
+    def roughness(self) -> float:
         """
         the microfacets' alpha is its square; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def roughness(self, value: float) -> None: ...
     @property
-    def specular_ior_level(self) -> float | TextureRef | OperationRef:
+    def sheen_roughness(self) -> float:
+        """
+        as of the sheen shader; in [0, 1]
+        """
+    @sheen_roughness.setter
+    def sheen_roughness(self, value: float) -> None: ...
+    @property
+    def sheen_tint(self) -> tuple[float, float, float] | TextureRef:
+        """
+        colour of the fibres; in [0, 1]
+        """
+    @sheen_tint.setter
+    def sheen_tint(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def sheen_weight(self) -> float:
+        """
+        of the fibres on top of all; in [0, 1]
+        """
+    @sheen_weight.setter
+    def sheen_weight(self, value: float) -> None: ...
+    @property
+    def specular_ior_level(self) -> float:
         """
         0.5 leaves the index's reflectance as it is; in [0, 1]
         """
     @specular_ior_level.setter
-    def specular_ior_level(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def specular_ior_level(self, value: float) -> None: ...
     @property
-    def transmission(self) -> float | TextureRef | OperationRef:
+    def specular_tint(self) -> tuple[float, float, float] | TextureRef:
+        """
+        of a dielectric's reflection where it is met head on, of a metal's near grazing incidence; in [0, 1]
+        """
+    @specular_tint.setter
+    def specular_tint(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+    ) -> None: ...
+    @property
+    def tangent(self) -> str:
+        """
+        what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+        """
+    @tangent.setter
+    def tangent(self, value: str) -> None: ...
+    @property
+    def thin_film_ior(self) -> float:
+        """
+        refractive index of the film; above 0
+        """
+    @thin_film_ior.setter
+    def thin_film_ior(self, value: float) -> None: ...
+    @property
+    def thin_film_thickness(self) -> float:
+        """
+        of a thin film on it, nanometres; 0 is none; at least 0
+        """
+    @thin_film_thickness.setter
+    def thin_film_thickness(self, value: float) -> None: ...
+    @property
+    def transmission(self) -> float:
         """
         how much of the dielectric is glass; in [0, 1]
         """
     @transmission.setter
-    def transmission(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def transmission(self, value: float) -> None: ...
+
 class VolumeShader:
     """
     What fills a shape, by its coefficients.
-    
+
     absorption: share of the light that each metre takes away, 1 / m; at least 0
     scattering: share of the light that each metre scatters, 1 / m; at least 0
     emission: radiance that each metre adds, W / (m^3 sr); at least 0
@@ -2282,198 +1263,225 @@ class VolumeShader:
     backscatter: fournier_forand: share of the light that is scattered backwards; in [0, 0.5]
     diameter: mie: of the droplets, micrometres; in [0, 50]
     """
-    def __init__(self, absorption: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0), scattering: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0), emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0), phase: str = 'henyey_greenstein', anisotropy: float = 0.0, alpha: float = 0.5, ior: float = 1.33, backscatter: float = 0.1, diameter: float = 20.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        absorption: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        scattering: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        phase: str = "henyey_greenstein",
+        anisotropy: float = 0.0,
+        alpha: float = 0.5,
+        ior: float = 1.33,
+        backscatter: float = 0.1,
+        diameter: float = 20.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def absorption(self) -> tuple[float, float, float]:
         """
         share of the light that each metre takes away, 1 / m; at least 0
         """
     @absorption.setter
-    def absorption(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def absorption(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def alpha(self) -> float:
         """
         draine: 0 is henyey_greenstein, 1 with anisotropy 0 is rayleigh; at least 0
         """
     @alpha.setter
-    def alpha(self, value: float) -> None:
-        ...
+    def alpha(self, value: float) -> None: ...
     @property
     def anisotropy(self) -> float:
         """
         henyey_greenstein, draine: above 0 forwards, below 0 backwards; in [-1, 1]
         """
     @anisotropy.setter
-    def anisotropy(self, value: float) -> None:
-        ...
+    def anisotropy(self, value: float) -> None: ...
     @property
     def backscatter(self) -> float:
         """
         fournier_forand: share of the light that is scattered backwards; in [0, 0.5]
         """
     @backscatter.setter
-    def backscatter(self, value: float) -> None:
-        ...
+    def backscatter(self, value: float) -> None: ...
     @property
     def diameter(self) -> float:
         """
         mie: of the droplets, micrometres; in [0, 50]
         """
     @diameter.setter
-    def diameter(self, value: float) -> None:
-        ...
+    def diameter(self, value: float) -> None: ...
     @property
     def emission(self) -> tuple[float, float, float]:
         """
         radiance that each metre adds, W / (m^3 sr); at least 0
         """
     @emission.setter
-    def emission(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def emission(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def ior(self) -> float:
         """
         fournier_forand: refractive index of the particles; above 1
         """
     @ior.setter
-    def ior(self, value: float) -> None:
-        ...
+    def ior(self, value: float) -> None: ...
     @property
     def phase(self) -> str:
         """
         how scattered light turns: henyey_greenstein, rayleigh, draine, fournier_forand or mie
         """
     @phase.setter
-    def phase(self, value: str) -> None:
-        ...
+    def phase(self, value: str) -> None: ...
     @property
     def scattering(self) -> tuple[float, float, float]:
         """
         share of the light that each metre scatters, 1 / m; at least 0
         """
     @scattering.setter
-    def scattering(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def scattering(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class MixShader:
     """
     A blend of two nodes; None is black and opaque.
-    
+
     factor: 0 is all the first, 1 all the second; in [0, 1]
     first: a node made before this one
     second: a node made before this one
     """
-    def __init__(self, factor: float | TextureRef | OperationRef = 0.5, first: int | None = None, second: int | None = None) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self, factor: float | TextureRef = 0.5, first: int | None = None, second: int | None = None
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def factor(self) -> float | TextureRef | OperationRef:
+    def factor(self) -> float | TextureRef:
         """
         0 is all the first, 1 all the second; in [0, 1]
         """
     @factor.setter
-    def factor(self, value: float | TextureRef | OperationRef) -> None:
-        ...
+    def factor(self, value: float | TextureRef) -> None: ...
     @property
     def first(self) -> int | None:
         """
         a node made before this one
         """
     @first.setter
-    def first(self, value: int | None) -> None:
-        ...
+    def first(self, value: int | None) -> None: ...
     @property
     def second(self) -> int | None:
         """
         a node made before this one
         """
     @second.setter
-    def second(self, value: int | None) -> None:
-        ...
+    def second(self, value: int | None) -> None: ...
+
 class AddShader:
     """
     The sum of two nodes; None is black and opaque.
-    
+
     first: a node made before this one
     second: a node made before this one
     """
-    def __init__(self, first: int | None = None, second: int | None = None) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(self, first: int | None = None, second: int | None = None) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def first(self) -> int | None:
         """
         a node made before this one
         """
     @first.setter
-    def first(self, value: int | None) -> None:
-        ...
+    def first(self, value: int | None) -> None: ...
     @property
     def second(self) -> int | None:
         """
         a node made before this one
         """
     @second.setter
-    def second(self, value: int | None) -> None:
-        ...
+    def second(self, value: int | None) -> None: ...
+
 class Material:
     """
     A small graph of shader nodes. A node refers only to nodes added before it.
     """
+
     name: str
-    def __init__(self, name: str = '') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def add(self, node: DiffuseShader | GlossyShader | ConductorShader | RefractionShader | GlassShader | TransparentShader | EmissionShader | HoldoutShader | PrincipledShader | VolumeShader | MixShader | AddShader) -> int:
+    def __init__(self, name: str = "") -> None: ...
+    def __repr__(self) -> str: ...
+    def add(
+        self,
+        node: DiffuseShader
+        | GlossyShader
+        | ConductorShader
+        | RefractionShader
+        | GlassShader
+        | TransparentShader
+        | EmissionShader
+        | HoldoutShader
+        | PrincipledShader
+        | VolumeShader
+        | MixShader
+        | AddShader
+        | TranslucentShader
+        | MetallicShader
+        | SheenShader
+        | ToonShader,
+    ) -> int:
         """
         Appends a node and returns its index.
         """
-    def add_operation(self, operation: MathOperation | VectorMathOperation | MapRangeOperation | ComponentOperation | CombineOperation | MixOperation | TableOperation | ConvertColorOperation | HueSaturationOperation | ToneOperation | MappingOperation | RotateOperation | TransformOperation | ChangeSpaceOperation | SurfaceOperation | AttributeOperation | FresnelOperation | NormalMapOperation | BumpOperation | TextureOperation | CheckerOperation | GradientOperation | WaveOperation | MagicOperation | BrickOperation | NoiseOperation | WhiteNoiseOperation | VoronoiOperation) -> OperationRef:
-        """
-        Appends an operation, which refers only to those before it, and returns what stands for its value.
-        """
     @property
-    def nodes(self) -> list[DiffuseShader | GlossyShader | ConductorShader | RefractionShader | GlassShader | TransparentShader | EmissionShader | HoldoutShader | PrincipledShader | VolumeShader | MixShader | AddShader]:
+    def nodes(
+        self,
+    ) -> list[
+        DiffuseShader
+        | GlossyShader
+        | ConductorShader
+        | RefractionShader
+        | GlassShader
+        | TransparentShader
+        | EmissionShader
+        | HoldoutShader
+        | PrincipledShader
+        | VolumeShader
+        | MixShader
+        | AddShader
+        | TranslucentShader
+        | MetallicShader
+        | SheenShader
+        | ToonShader
+    ]:
         """
         Copies of the nodes.
         """
     @property
-    def operations(self) -> list[MathOperation | VectorMathOperation | MapRangeOperation | ComponentOperation | CombineOperation | MixOperation | TableOperation | ConvertColorOperation | HueSaturationOperation | ToneOperation | MappingOperation | RotateOperation | TransformOperation | ChangeSpaceOperation | SurfaceOperation | AttributeOperation | FresnelOperation | NormalMapOperation | BumpOperation | TextureOperation | CheckerOperation | GradientOperation | WaveOperation | MagicOperation | BrickOperation | NoiseOperation | WhiteNoiseOperation | VoronoiOperation]:
+    def pass_index(self) -> int:
         """
-        Copies of the operations.
+        for the pass Material Index
         """
-    @property
-    def pass_index(self) -> float:
-        ...
     @pass_index.setter
-    def pass_index(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
+    def pass_index(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def surface(self) -> int | None:
         """
         The index of the node that the surface shows; None is black and opaque, or, with a volume, nothing but the volume's boundary.
         """
     @surface.setter
-    def surface(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None:
-        ...
+    def surface(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
     @property
     def volume(self) -> int | None:
         """
         The index of the node that fills the shape: a VolumeShader, an EmissionShader, or such mixed and added. None is empty space.
         """
     @volume.setter
-    def volume(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None:
-        ...
+    def volume(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
+
 class PointLight:
     """
     A point, or a sphere that shines alike everywhere.
-    
+
     position: world space, metres
     intensity: W / sr; at least 0
     radius: metres; at least 0
@@ -2486,102 +1494,105 @@ class PointLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
-    def __init__(self, position: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0), intensity: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0), radius: float = 0.0, soft: bool = False, camera_visible: bool = True, diffuse_visible: bool = True, glossy_visible: bool = True, transmission_visible: bool = True, volume_visible: bool = True, casts_shadows: bool = True, max_bounces: int = 1024) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        position: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        intensity: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        radius: float = 0.0,
+        soft: bool = False,
+        camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def camera_visible(self) -> bool:
         """
         camera rays see the lamp
         """
     @camera_visible.setter
-    def camera_visible(self, value: bool) -> None:
-        ...
+    def camera_visible(self, value: bool) -> None: ...
     @property
     def casts_shadows(self) -> bool:
         """
         what is in the way dims its light
         """
     @casts_shadows.setter
-    def casts_shadows(self, value: bool) -> None:
-        ...
+    def casts_shadows(self, value: bool) -> None: ...
     @property
     def diffuse_visible(self) -> bool:
         """
         it lights by diffuse reflection
         """
     @diffuse_visible.setter
-    def diffuse_visible(self, value: bool) -> None:
-        ...
+    def diffuse_visible(self, value: bool) -> None: ...
     @property
     def glossy_visible(self) -> bool:
         """
         it lights by glossy reflection, and mirrors see it
         """
     @glossy_visible.setter
-    def glossy_visible(self, value: bool) -> None:
-        ...
+    def glossy_visible(self, value: bool) -> None: ...
     @property
     def intensity(self) -> tuple[float, float, float]:
         """
         W / sr; at least 0
         """
     @intensity.setter
-    def intensity(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def intensity(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
-    def max_bounces(self, value: int) -> None:
-        ...
+    def max_bounces(self, value: int) -> None: ...
     @property
     def position(self) -> tuple[float, float, float]:
         """
         world space, metres
         """
     @position.setter
-    def position(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def position(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def radius(self) -> float:
         """
         metres; at least 0
         """
     @radius.setter
-    def radius(self, value: float) -> None:
-        ...
+    def radius(self, value: float) -> None: ...
     @property
     def soft(self) -> bool:
         """
         a disc that faces the lit point instead of a sphere
         """
     @soft.setter
-    def soft(self, value: bool) -> None:
-        ...
+    def soft(self, value: bool) -> None: ...
     @property
     def transmission_visible(self) -> bool:
         """
         it lights through glass, and is seen through it
         """
     @transmission_visible.setter
-    def transmission_visible(self, value: bool) -> None:
-        ...
+    def transmission_visible(self, value: bool) -> None: ...
     @property
     def volume_visible(self) -> bool:
         """
         it lights volumes
         """
     @volume_visible.setter
-    def volume_visible(self, value: bool) -> None:
-        ...
+    def volume_visible(self, value: bool) -> None: ...
+
 class SpotLight:
     """
     A point or sphere that shines in a cone.
-    
+
     transform: local to world; shines along local -z
     intensity: W / sr on the axis; at least 0
     radius: metres; at least 0
@@ -2596,118 +1607,121 @@ class SpotLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., intensity: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0), radius: float = 0.0, soft: bool = False, angle: float = 0.785398, blend: float = 0.15, camera_visible: bool = True, diffuse_visible: bool = True, glossy_visible: bool = True, transmission_visible: bool = True, volume_visible: bool = True, casts_shadows: bool = True, max_bounces: int = 1024) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        intensity: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        radius: float = 0.0,
+        soft: bool = False,
+        angle: float = 0.785398,
+        blend: float = 0.15,
+        camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def angle(self) -> float:
         """
         full angle of the cone, radians; above 0
         """
     @angle.setter
-    def angle(self, value: float) -> None:
-        ...
+    def angle(self, value: float) -> None: ...
     @property
     def blend(self) -> float:
         """
         share of the cone in which it fades; in [0, 1]
         """
     @blend.setter
-    def blend(self, value: float) -> None:
-        ...
+    def blend(self, value: float) -> None: ...
     @property
     def camera_visible(self) -> bool:
         """
         camera rays see the lamp
         """
     @camera_visible.setter
-    def camera_visible(self, value: bool) -> None:
-        ...
+    def camera_visible(self, value: bool) -> None: ...
     @property
     def casts_shadows(self) -> bool:
         """
         what is in the way dims its light
         """
     @casts_shadows.setter
-    def casts_shadows(self, value: bool) -> None:
-        ...
+    def casts_shadows(self, value: bool) -> None: ...
     @property
     def diffuse_visible(self) -> bool:
         """
         it lights by diffuse reflection
         """
     @diffuse_visible.setter
-    def diffuse_visible(self, value: bool) -> None:
-        ...
+    def diffuse_visible(self, value: bool) -> None: ...
     @property
     def glossy_visible(self) -> bool:
         """
         it lights by glossy reflection, and mirrors see it
         """
     @glossy_visible.setter
-    def glossy_visible(self, value: bool) -> None:
-        ...
+    def glossy_visible(self, value: bool) -> None: ...
     @property
     def intensity(self) -> tuple[float, float, float]:
         """
         W / sr on the axis; at least 0
         """
     @intensity.setter
-    def intensity(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def intensity(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
-    def max_bounces(self, value: int) -> None:
-        ...
+    def max_bounces(self, value: int) -> None: ...
     @property
     def radius(self) -> float:
         """
         metres; at least 0
         """
     @radius.setter
-    def radius(self, value: float) -> None:
-        ...
+    def radius(self, value: float) -> None: ...
     @property
     def soft(self) -> bool:
         """
         a disc that faces the lit point instead of a sphere
         """
     @soft.setter
-    def soft(self, value: bool) -> None:
-        ...
+    def soft(self, value: bool) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         local to world; shines along local -z
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def transmission_visible(self) -> bool:
         """
         it lights through glass, and is seen through it
         """
     @transmission_visible.setter
-    def transmission_visible(self, value: bool) -> None:
-        ...
+    def transmission_visible(self, value: bool) -> None: ...
     @property
     def volume_visible(self) -> bool:
         """
         it lights volumes
         """
     @volume_visible.setter
-    def volume_visible(self, value: bool) -> None:
-        ...
+    def volume_visible(self, value: bool) -> None: ...
+
 class SunLight:
     """
     Light from infinitely far.
-    
+
     direction: in which the light travels, world space
     irradiance: W / m^2 on a surface that faces it; at least 0
     angle: full angle of the disc, radians; in [0, 3.141593]
@@ -2719,94 +1733,99 @@ class SunLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
-    def __init__(self, direction: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, -1.0), irradiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0), angle: float = 0.0, camera_visible: bool = True, diffuse_visible: bool = True, glossy_visible: bool = True, transmission_visible: bool = True, volume_visible: bool = True, casts_shadows: bool = True, max_bounces: int = 1024) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        direction: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, -1.0),
+        irradiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        angle: float = 0.0,
+        camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def angle(self) -> float:
         """
         full angle of the disc, radians; in [0, 3.141593]
         """
     @angle.setter
-    def angle(self, value: float) -> None:
-        ...
+    def angle(self, value: float) -> None: ...
     @property
     def camera_visible(self) -> bool:
         """
         camera rays see the lamp
         """
     @camera_visible.setter
-    def camera_visible(self, value: bool) -> None:
-        ...
+    def camera_visible(self, value: bool) -> None: ...
     @property
     def casts_shadows(self) -> bool:
         """
         what is in the way dims its light
         """
     @casts_shadows.setter
-    def casts_shadows(self, value: bool) -> None:
-        ...
+    def casts_shadows(self, value: bool) -> None: ...
     @property
     def diffuse_visible(self) -> bool:
         """
         it lights by diffuse reflection
         """
     @diffuse_visible.setter
-    def diffuse_visible(self, value: bool) -> None:
-        ...
+    def diffuse_visible(self, value: bool) -> None: ...
     @property
     def direction(self) -> tuple[float, float, float]:
         """
         in which the light travels, world space
         """
     @direction.setter
-    def direction(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def direction(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def glossy_visible(self) -> bool:
         """
         it lights by glossy reflection, and mirrors see it
         """
     @glossy_visible.setter
-    def glossy_visible(self, value: bool) -> None:
-        ...
+    def glossy_visible(self, value: bool) -> None: ...
     @property
     def irradiance(self) -> tuple[float, float, float]:
         """
         W / m^2 on a surface that faces it; at least 0
         """
     @irradiance.setter
-    def irradiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def irradiance(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
-    def max_bounces(self, value: int) -> None:
-        ...
+    def max_bounces(self, value: int) -> None: ...
     @property
     def transmission_visible(self) -> bool:
         """
         it lights through glass, and is seen through it
         """
     @transmission_visible.setter
-    def transmission_visible(self, value: bool) -> None:
-        ...
+    def transmission_visible(self, value: bool) -> None: ...
     @property
     def volume_visible(self) -> bool:
         """
         it lights volumes
         """
     @volume_visible.setter
-    def volume_visible(self, value: bool) -> None:
-        ...
+    def volume_visible(self, value: bool) -> None: ...
+
 class AreaLight:
     """
     A rectangle or ellipse that shines to one side.
-    
+
     transform: local to world; a unit square or disc at z = 0
     radiance: W / (m^2 sr) with full spread; at least 0
     ellipse: an ellipse instead of a rectangle
@@ -2819,138 +1838,137 @@ class AreaLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0), ellipse: bool = False, spread: float = 3.141593, camera_visible: bool = True, diffuse_visible: bool = True, glossy_visible: bool = True, transmission_visible: bool = True, volume_visible: bool = True, casts_shadows: bool = True, max_bounces: int = 1024) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        ellipse: bool = False,
+        spread: float = 3.141593,
+        camera_visible: bool = True,
+        diffuse_visible: bool = True,
+        glossy_visible: bool = True,
+        transmission_visible: bool = True,
+        volume_visible: bool = True,
+        casts_shadows: bool = True,
+        max_bounces: int = 1024,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def camera_visible(self) -> bool:
         """
         camera rays see the lamp
         """
     @camera_visible.setter
-    def camera_visible(self, value: bool) -> None:
-        ...
+    def camera_visible(self, value: bool) -> None: ...
     @property
     def casts_shadows(self) -> bool:
         """
         what is in the way dims its light
         """
     @casts_shadows.setter
-    def casts_shadows(self, value: bool) -> None:
-        ...
+    def casts_shadows(self, value: bool) -> None: ...
     @property
     def diffuse_visible(self) -> bool:
         """
         it lights by diffuse reflection
         """
     @diffuse_visible.setter
-    def diffuse_visible(self, value: bool) -> None:
-        ...
+    def diffuse_visible(self, value: bool) -> None: ...
     @property
     def ellipse(self) -> bool:
         """
         an ellipse instead of a rectangle
         """
     @ellipse.setter
-    def ellipse(self, value: bool) -> None:
-        ...
+    def ellipse(self, value: bool) -> None: ...
     @property
     def glossy_visible(self) -> bool:
         """
         it lights by glossy reflection, and mirrors see it
         """
     @glossy_visible.setter
-    def glossy_visible(self, value: bool) -> None:
-        ...
+    def glossy_visible(self, value: bool) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
-    def max_bounces(self, value: int) -> None:
-        ...
+    def max_bounces(self, value: int) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
         W / (m^2 sr) with full spread; at least 0
         """
     @radiance.setter
-    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def spread(self) -> float:
         """
         full angle, radians; in [0, 3.141593]
         """
     @spread.setter
-    def spread(self, value: float) -> None:
-        ...
+    def spread(self, value: float) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         local to world; a unit square or disc at z = 0
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def transmission_visible(self) -> bool:
         """
         it lights through glass, and is seen through it
         """
     @transmission_visible.setter
-    def transmission_visible(self, value: bool) -> None:
-        ...
+    def transmission_visible(self, value: bool) -> None: ...
     @property
     def volume_visible(self) -> bool:
         """
         it lights volumes
         """
     @volume_visible.setter
-    def volume_visible(self, value: bool) -> None:
-        ...
+    def volume_visible(self, value: bool) -> None: ...
+
 class PreethamSky:
     """
     A fit to daylight; it has no sun disc.
-    
+
     sun_elevation: above the horizon, radians
     sun_rotation: from y towards x, radians
     turbidity: haze: 2 is clear, 10 hazy; in [1, 10]
     """
-    def __init__(self, sun_elevation: float = 0.261799, sun_rotation: float = 0.0, turbidity: float = 2.2) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self, sun_elevation: float = 0.261799, sun_rotation: float = 0.0, turbidity: float = 2.2
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def sun_elevation(self) -> float:
         """
         above the horizon, radians
         """
     @sun_elevation.setter
-    def sun_elevation(self, value: float) -> None:
-        ...
+    def sun_elevation(self, value: float) -> None: ...
     @property
     def sun_rotation(self) -> float:
         """
         from y towards x, radians
         """
     @sun_rotation.setter
-    def sun_rotation(self, value: float) -> None:
-        ...
+    def sun_rotation(self, value: float) -> None: ...
     @property
     def turbidity(self) -> float:
         """
         haze: 2 is clear, 10 hazy; in [1, 10]
         """
     @turbidity.setter
-    def turbidity(self, value: float) -> None:
-        ...
+    def turbidity(self, value: float) -> None: ...
+
 class SingleScatteringSky:
     """
     Light that is scattered once on its way.
-    
+
     sun_elevation: above the horizon, radians
     sun_rotation: from y towards x, radians
     sun_disc: the sun itself is seen and sends light
@@ -2961,86 +1979,87 @@ class SingleScatteringSky:
     aerosol_density: dust and droplets; at least 0
     ozone_density: ozone high above; at least 0
     """
-    def __init__(self, sun_elevation: float = 0.261799, sun_rotation: float = 0.0, sun_disc: bool = True, sun_size: float = 0.009512, sun_intensity: float = 1.0, altitude: float = 100.0, air_density: float = 1.0, aerosol_density: float = 1.0, ozone_density: float = 1.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        sun_elevation: float = 0.261799,
+        sun_rotation: float = 0.0,
+        sun_disc: bool = True,
+        sun_size: float = 0.009512,
+        sun_intensity: float = 1.0,
+        altitude: float = 100.0,
+        air_density: float = 1.0,
+        aerosol_density: float = 1.0,
+        ozone_density: float = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aerosol_density(self) -> float:
         """
         dust and droplets; at least 0
         """
     @aerosol_density.setter
-    def aerosol_density(self, value: float) -> None:
-        ...
+    def aerosol_density(self, value: float) -> None: ...
     @property
     def air_density(self) -> float:
         """
         molecules; at least 0
         """
     @air_density.setter
-    def air_density(self, value: float) -> None:
-        ...
+    def air_density(self, value: float) -> None: ...
     @property
     def altitude(self) -> float:
         """
         of the eye above the sea, metres; at least 0
         """
     @altitude.setter
-    def altitude(self, value: float) -> None:
-        ...
+    def altitude(self, value: float) -> None: ...
     @property
     def ozone_density(self) -> float:
         """
         ozone high above; at least 0
         """
     @ozone_density.setter
-    def ozone_density(self, value: float) -> None:
-        ...
+    def ozone_density(self, value: float) -> None: ...
     @property
     def sun_disc(self) -> bool:
         """
         the sun itself is seen and sends light
         """
     @sun_disc.setter
-    def sun_disc(self, value: bool) -> None:
-        ...
+    def sun_disc(self, value: bool) -> None: ...
     @property
     def sun_elevation(self) -> float:
         """
         above the horizon, radians
         """
     @sun_elevation.setter
-    def sun_elevation(self, value: float) -> None:
-        ...
+    def sun_elevation(self, value: float) -> None: ...
     @property
     def sun_intensity(self) -> float:
         """
         of the disc; at least 0
         """
     @sun_intensity.setter
-    def sun_intensity(self, value: float) -> None:
-        ...
+    def sun_intensity(self, value: float) -> None: ...
     @property
     def sun_rotation(self) -> float:
         """
         from y towards x, radians
         """
     @sun_rotation.setter
-    def sun_rotation(self, value: float) -> None:
-        ...
+    def sun_rotation(self, value: float) -> None: ...
     @property
     def sun_size(self) -> float:
         """
         full angle of the disc, radians; in [0, 1.570797]
         """
     @sun_size.setter
-    def sun_size(self, value: float) -> None:
-        ...
+    def sun_size(self, value: float) -> None: ...
+
 class MultipleScatteringSky:
     """
     Light that is scattered any number of times, and reflected by the ground.
-    
+
     sun_elevation: above the horizon, radians
     sun_rotation: from y towards x, radians
     sun_disc: the sun itself is seen and sends light
@@ -3051,86 +2070,87 @@ class MultipleScatteringSky:
     aerosol_density: dust and droplets; at least 0
     ozone_density: ozone high above; at least 0
     """
-    def __init__(self, sun_elevation: float = 0.261799, sun_rotation: float = 0.0, sun_disc: bool = True, sun_size: float = 0.009512, sun_intensity: float = 1.0, altitude: float = 100.0, air_density: float = 1.0, aerosol_density: float = 1.0, ozone_density: float = 1.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        sun_elevation: float = 0.261799,
+        sun_rotation: float = 0.0,
+        sun_disc: bool = True,
+        sun_size: float = 0.009512,
+        sun_intensity: float = 1.0,
+        altitude: float = 100.0,
+        air_density: float = 1.0,
+        aerosol_density: float = 1.0,
+        ozone_density: float = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aerosol_density(self) -> float:
         """
         dust and droplets; at least 0
         """
     @aerosol_density.setter
-    def aerosol_density(self, value: float) -> None:
-        ...
+    def aerosol_density(self, value: float) -> None: ...
     @property
     def air_density(self) -> float:
         """
         molecules; at least 0
         """
     @air_density.setter
-    def air_density(self, value: float) -> None:
-        ...
+    def air_density(self, value: float) -> None: ...
     @property
     def altitude(self) -> float:
         """
         of the eye above the sea, metres; at least 0
         """
     @altitude.setter
-    def altitude(self, value: float) -> None:
-        ...
+    def altitude(self, value: float) -> None: ...
     @property
     def ozone_density(self) -> float:
         """
         ozone high above; at least 0
         """
     @ozone_density.setter
-    def ozone_density(self, value: float) -> None:
-        ...
+    def ozone_density(self, value: float) -> None: ...
     @property
     def sun_disc(self) -> bool:
         """
         the sun itself is seen and sends light
         """
     @sun_disc.setter
-    def sun_disc(self, value: bool) -> None:
-        ...
+    def sun_disc(self, value: bool) -> None: ...
     @property
     def sun_elevation(self) -> float:
         """
         above the horizon, radians
         """
     @sun_elevation.setter
-    def sun_elevation(self, value: float) -> None:
-        ...
+    def sun_elevation(self, value: float) -> None: ...
     @property
     def sun_intensity(self) -> float:
         """
         of the disc; at least 0
         """
     @sun_intensity.setter
-    def sun_intensity(self, value: float) -> None:
-        ...
+    def sun_intensity(self, value: float) -> None: ...
     @property
     def sun_rotation(self) -> float:
         """
         from y towards x, radians
         """
     @sun_rotation.setter
-    def sun_rotation(self, value: float) -> None:
-        ...
+    def sun_rotation(self, value: float) -> None: ...
     @property
     def sun_size(self) -> float:
         """
         full angle of the disc, radians; in [0, 1.570797]
         """
     @sun_size.setter
-    def sun_size(self, value: float) -> None:
-        ...
+    def sun_size(self, value: float) -> None: ...
+
 class EnvironmentLayer:
     """
     A picture around the scene, or the same from everywhere.
-    
+
     radiance: W / (m^2 sr); multiplies the image or sky where there is one; at least 0
     image: an Image; None is the same from everywhere
     sky: a PreethamSky, SingleScatteringSky or MultipleScatteringSky instead of an image
@@ -3139,97 +2159,101 @@ class EnvironmentLayer:
     transform: of a direction, as a point, before the image or sky is looked up
     seen_by: which rays see it: all, those from the camera, or those that have scattered
     """
-    def __init__(self, radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0), image: Image | None = None, sky: PreethamSky | SingleScatteringSky | MultipleScatteringSky | None = None, projection: str = 'equirectangular', interpolation: str = 'linear', transform: numpy.typing.ArrayLike = ..., seen_by: str = 'all') -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        image: Image | None = None,
+        sky: PreethamSky | SingleScatteringSky | MultipleScatteringSky | None = None,
+        projection: str = "equirectangular",
+        interpolation: str = "linear",
+        transform: numpy.typing.ArrayLike = ...,
+        seen_by: str = "all",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def image(self) -> Image | None:
         """
         an Image; None is the same from everywhere
         """
     @image.setter
-    def image(self, value: Image | None) -> None:
-        ...
+    def image(self, value: Image | None) -> None: ...
     @property
     def interpolation(self) -> str:
         """
         between pixels: linear, closest or cubic
         """
     @interpolation.setter
-    def interpolation(self, value: str) -> None:
-        ...
+    def interpolation(self, value: str) -> None: ...
     @property
     def projection(self) -> str:
         """
         of the image: equirectangular, mirror_ball or horizon
         """
     @projection.setter
-    def projection(self, value: str) -> None:
-        ...
+    def projection(self, value: str) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
         W / (m^2 sr); multiplies the image or sky where there is one; at least 0
         """
     @radiance.setter
-    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def seen_by(self) -> str:
         """
         which rays see it: all, those from the camera, or those that have scattered
         """
     @seen_by.setter
-    def seen_by(self, value: str) -> None:
-        ...
+    def seen_by(self, value: str) -> None: ...
     @property
     def sky(self) -> PreethamSky | SingleScatteringSky | MultipleScatteringSky | None:
         """
         a PreethamSky, SingleScatteringSky or MultipleScatteringSky instead of an image
         """
     @sky.setter
-    def sky(self, value: PreethamSky | SingleScatteringSky | MultipleScatteringSky | None) -> None:
-        ...
+    def sky(
+        self, value: PreethamSky | SingleScatteringSky | MultipleScatteringSky | None
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         of a direction, as a point, before the image or sky is looked up
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+
 class Environment:
     """
     What a ray sees that hits nothing.
-    
+
     radiance: W / (m^2 sr), each direction alike; at least 0
     layers: EnvironmentLayers, added up; reading gives a copy, assign to change them
     """
-    def __init__(self, radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0), layers: collections.abc.Iterable[EnvironmentLayer] = []) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        layers: collections.abc.Iterable[EnvironmentLayer] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def layers(self) -> list[EnvironmentLayer]:
         """
         EnvironmentLayers, added up; reading gives a copy, assign to change them
         """
     @layers.setter
-    def layers(self, value: collections.abc.Iterable[EnvironmentLayer]) -> None:
-        ...
+    def layers(self, value: collections.abc.Iterable[EnvironmentLayer]) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
         W / (m^2 sr), each direction alike; at least 0
         """
     @radiance.setter
-    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def radiance(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+
 class PerspectiveCamera:
     """
     Sees along local -z through a window at z = -1.
-    
+
     transform: camera to world; looks along -z, y is up
     window_min: lower left corner on the plane z = -1
     window_max: upper right corner on the plane z = -1
@@ -3242,102 +2266,109 @@ class PerspectiveCamera:
     focus_distance: what is that far is sharp, metres; above 0
     motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0), window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0), clip_near: float = 0.0, clip_far: float = ..., aperture_radius: float = 0.0, aperture_blades: int = 0, aperture_rotation: float = 0.0, aperture_ratio: float = 1.0, focus_distance: float = 10.0, motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = []) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aperture_blades(self) -> int:
         """
         corners of the aperture; below 3 it is round; at least 0
         """
     @aperture_blades.setter
-    def aperture_blades(self, value: int) -> None:
-        ...
+    def aperture_blades(self, value: int) -> None: ...
     @property
     def aperture_radius(self) -> float:
         """
         metres; 0: everything is in focus; at least 0
         """
     @aperture_radius.setter
-    def aperture_radius(self, value: float) -> None:
-        ...
+    def aperture_radius(self, value: float) -> None: ...
     @property
     def aperture_ratio(self) -> float:
         """
         the aperture's height over its width; above 0
         """
     @aperture_ratio.setter
-    def aperture_ratio(self, value: float) -> None:
-        ...
+    def aperture_ratio(self, value: float) -> None: ...
     @property
     def aperture_rotation(self) -> float:
         """
         of the blades, radians
         """
     @aperture_rotation.setter
-    def aperture_rotation(self, value: float) -> None:
-        ...
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
         nothing farther is seen, metres; above 0
         """
     @clip_far.setter
-    def clip_far(self, value: float) -> None:
-        ...
+    def clip_far(self, value: float) -> None: ...
     @property
     def clip_near(self) -> float:
         """
         nothing nearer is seen, metres; at least 0
         """
     @clip_near.setter
-    def clip_near(self, value: float) -> None:
-        ...
+    def clip_near(self, value: float) -> None: ...
     @property
     def focus_distance(self) -> float:
         """
         what is that far is sharp, metres; above 0
         """
     @focus_distance.setter
-    def focus_distance(self, value: float) -> None:
-        ...
+    def focus_distance(self, value: float) -> None: ...
     @property
     def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
         """
         camera to world at further times, equally spaced; the last is when the shutter closes
         """
     @motion_transforms.setter
-    def motion_transforms(self, value: collections.abc.Iterable[numpy.typing.ArrayLike]) -> None:
-        ...
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def window_max(self) -> tuple[float, float]:
         """
         upper right corner on the plane z = -1
         """
     @window_max.setter
-    def window_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def window_min(self) -> tuple[float, float]:
         """
         lower left corner on the plane z = -1
         """
     @window_min.setter
-    def window_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class OrthographicCamera:
     """
     Sees along local -z, all rays parallel.
-    
+
     transform: camera to world; looks along -z, y is up
     window_min: lower left corner, metres
     window_max: upper right corner, metres
@@ -3350,102 +2381,109 @@ class OrthographicCamera:
     focus_distance: what is that far is sharp, metres; above 0
     motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0), window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0), clip_near: float = 0.0, clip_far: float = ..., aperture_radius: float = 0.0, aperture_blades: int = 0, aperture_rotation: float = 0.0, aperture_ratio: float = 1.0, focus_distance: float = 10.0, motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = []) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aperture_blades(self) -> int:
         """
         corners of the aperture; below 3 it is round; at least 0
         """
     @aperture_blades.setter
-    def aperture_blades(self, value: int) -> None:
-        ...
+    def aperture_blades(self, value: int) -> None: ...
     @property
     def aperture_radius(self) -> float:
         """
         metres; 0: everything is in focus; at least 0
         """
     @aperture_radius.setter
-    def aperture_radius(self, value: float) -> None:
-        ...
+    def aperture_radius(self, value: float) -> None: ...
     @property
     def aperture_ratio(self) -> float:
         """
         the aperture's height over its width; above 0
         """
     @aperture_ratio.setter
-    def aperture_ratio(self, value: float) -> None:
-        ...
+    def aperture_ratio(self, value: float) -> None: ...
     @property
     def aperture_rotation(self) -> float:
         """
         of the blades, radians
         """
     @aperture_rotation.setter
-    def aperture_rotation(self, value: float) -> None:
-        ...
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
         nothing farther is seen, metres; above 0
         """
     @clip_far.setter
-    def clip_far(self, value: float) -> None:
-        ...
+    def clip_far(self, value: float) -> None: ...
     @property
     def clip_near(self) -> float:
         """
         nothing nearer is seen, metres; at least 0
         """
     @clip_near.setter
-    def clip_near(self, value: float) -> None:
-        ...
+    def clip_near(self, value: float) -> None: ...
     @property
     def focus_distance(self) -> float:
         """
         what is that far is sharp, metres; above 0
         """
     @focus_distance.setter
-    def focus_distance(self, value: float) -> None:
-        ...
+    def focus_distance(self, value: float) -> None: ...
     @property
     def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
         """
         camera to world at further times, equally spaced; the last is when the shutter closes
         """
     @motion_transforms.setter
-    def motion_transforms(self, value: collections.abc.Iterable[numpy.typing.ArrayLike]) -> None:
-        ...
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def window_max(self) -> tuple[float, float]:
         """
         upper right corner, metres
         """
     @window_max.setter
-    def window_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def window_min(self) -> tuple[float, float]:
         """
         lower left corner, metres
         """
     @window_min.setter
-    def window_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class EquirectangularCamera:
     """
     A panorama of longitude and latitude.
-    
+
     transform: camera to world; looks along -z, y is up
     window_min: lowest longitude and latitude, radians
     window_max: highest longitude and latitude, radians
@@ -3458,102 +2496,115 @@ class EquirectangularCamera:
     focus_distance: what is that far is sharp, metres; above 0
     motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-3.1415927, -1.5707964), window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (3.1415927, 1.5707964), clip_near: float = 0.0, clip_far: float = ..., aperture_radius: float = 0.0, aperture_blades: int = 0, aperture_rotation: float = 0.0, aperture_ratio: float = 1.0, focus_distance: float = 10.0, motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = []) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            -3.1415927,
+            -1.5707964,
+        ),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            3.1415927,
+            1.5707964,
+        ),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aperture_blades(self) -> int:
         """
         corners of the aperture; below 3 it is round; at least 0
         """
     @aperture_blades.setter
-    def aperture_blades(self, value: int) -> None:
-        ...
+    def aperture_blades(self, value: int) -> None: ...
     @property
     def aperture_radius(self) -> float:
         """
         metres; 0: everything is in focus; at least 0
         """
     @aperture_radius.setter
-    def aperture_radius(self, value: float) -> None:
-        ...
+    def aperture_radius(self, value: float) -> None: ...
     @property
     def aperture_ratio(self) -> float:
         """
         the aperture's height over its width; above 0
         """
     @aperture_ratio.setter
-    def aperture_ratio(self, value: float) -> None:
-        ...
+    def aperture_ratio(self, value: float) -> None: ...
     @property
     def aperture_rotation(self) -> float:
         """
         of the blades, radians
         """
     @aperture_rotation.setter
-    def aperture_rotation(self, value: float) -> None:
-        ...
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
         nothing farther is seen, metres; above 0
         """
     @clip_far.setter
-    def clip_far(self, value: float) -> None:
-        ...
+    def clip_far(self, value: float) -> None: ...
     @property
     def clip_near(self) -> float:
         """
         nothing nearer is seen, metres; at least 0
         """
     @clip_near.setter
-    def clip_near(self, value: float) -> None:
-        ...
+    def clip_near(self, value: float) -> None: ...
     @property
     def focus_distance(self) -> float:
         """
         what is that far is sharp, metres; above 0
         """
     @focus_distance.setter
-    def focus_distance(self, value: float) -> None:
-        ...
+    def focus_distance(self, value: float) -> None: ...
     @property
     def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
         """
         camera to world at further times, equally spaced; the last is when the shutter closes
         """
     @motion_transforms.setter
-    def motion_transforms(self, value: collections.abc.Iterable[numpy.typing.ArrayLike]) -> None:
-        ...
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def window_max(self) -> tuple[float, float]:
         """
         highest longitude and latitude, radians
         """
     @window_max.setter
-    def window_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def window_min(self) -> tuple[float, float]:
         """
         lowest longitude and latitude, radians
         """
     @window_min.setter
-    def window_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class FisheyeEquidistantCamera:
     """
     A fisheye: distances in the picture are angles from the axis.
-    
+
     transform: camera to world; looks along -z, y is up
     window_min: lower left corner, radians from the axis
     window_max: upper right corner, radians from the axis
@@ -3567,110 +2618,123 @@ class FisheyeEquidistantCamera:
     motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     fov: full angle of the circle that is seen, radians; above 0
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.5707964, -1.5707964), window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.5707964, 1.5707964), clip_near: float = 0.0, clip_far: float = ..., aperture_radius: float = 0.0, aperture_blades: int = 0, aperture_rotation: float = 0.0, aperture_ratio: float = 1.0, focus_distance: float = 10.0, motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [], fov: float = 3.1415927) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            -1.5707964,
+            -1.5707964,
+        ),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            1.5707964,
+            1.5707964,
+        ),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+        fov: float = 3.1415927,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aperture_blades(self) -> int:
         """
         corners of the aperture; below 3 it is round; at least 0
         """
     @aperture_blades.setter
-    def aperture_blades(self, value: int) -> None:
-        ...
+    def aperture_blades(self, value: int) -> None: ...
     @property
     def aperture_radius(self) -> float:
         """
         metres; 0: everything is in focus; at least 0
         """
     @aperture_radius.setter
-    def aperture_radius(self, value: float) -> None:
-        ...
+    def aperture_radius(self, value: float) -> None: ...
     @property
     def aperture_ratio(self) -> float:
         """
         the aperture's height over its width; above 0
         """
     @aperture_ratio.setter
-    def aperture_ratio(self, value: float) -> None:
-        ...
+    def aperture_ratio(self, value: float) -> None: ...
     @property
     def aperture_rotation(self) -> float:
         """
         of the blades, radians
         """
     @aperture_rotation.setter
-    def aperture_rotation(self, value: float) -> None:
-        ...
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
         nothing farther is seen, metres; above 0
         """
     @clip_far.setter
-    def clip_far(self, value: float) -> None:
-        ...
+    def clip_far(self, value: float) -> None: ...
     @property
     def clip_near(self) -> float:
         """
         nothing nearer is seen, metres; at least 0
         """
     @clip_near.setter
-    def clip_near(self, value: float) -> None:
-        ...
+    def clip_near(self, value: float) -> None: ...
     @property
     def focus_distance(self) -> float:
         """
         what is that far is sharp, metres; above 0
         """
     @focus_distance.setter
-    def focus_distance(self, value: float) -> None:
-        ...
+    def focus_distance(self, value: float) -> None: ...
     @property
     def fov(self) -> float:
         """
         full angle of the circle that is seen, radians; above 0
         """
     @fov.setter
-    def fov(self, value: float) -> None:
-        ...
+    def fov(self, value: float) -> None: ...
     @property
     def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
         """
         camera to world at further times, equally spaced; the last is when the shutter closes
         """
     @motion_transforms.setter
-    def motion_transforms(self, value: collections.abc.Iterable[numpy.typing.ArrayLike]) -> None:
-        ...
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def window_max(self) -> tuple[float, float]:
         """
         upper right corner, radians from the axis
         """
     @window_max.setter
-    def window_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def window_min(self) -> tuple[float, float]:
         """
         lower left corner, radians from the axis
         """
     @window_min.setter
-    def window_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class FisheyeEquisolidCamera:
     """
     A fisheye: areas of the picture are solid angles. A mirror ball is one.
-    
+
     transform: camera to world; looks along -z, y is up
     window_min: lower left corner, in the focal length's unit
     window_max: upper right corner, in the focal length's unit
@@ -3685,118 +2749,125 @@ class FisheyeEquisolidCamera:
     fov: full angle of the circle that is seen, radians; above 0
     focal_length: in the window's unit; above 0
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0), window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0), clip_near: float = 0.0, clip_far: float = ..., aperture_radius: float = 0.0, aperture_blades: int = 0, aperture_rotation: float = 0.0, aperture_ratio: float = 1.0, focus_distance: float = 10.0, motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [], fov: float = 3.1415927, focal_length: float = 0.7071068) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+        fov: float = 3.1415927,
+        focal_length: float = 0.7071068,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aperture_blades(self) -> int:
         """
         corners of the aperture; below 3 it is round; at least 0
         """
     @aperture_blades.setter
-    def aperture_blades(self, value: int) -> None:
-        ...
+    def aperture_blades(self, value: int) -> None: ...
     @property
     def aperture_radius(self) -> float:
         """
         metres; 0: everything is in focus; at least 0
         """
     @aperture_radius.setter
-    def aperture_radius(self, value: float) -> None:
-        ...
+    def aperture_radius(self, value: float) -> None: ...
     @property
     def aperture_ratio(self) -> float:
         """
         the aperture's height over its width; above 0
         """
     @aperture_ratio.setter
-    def aperture_ratio(self, value: float) -> None:
-        ...
+    def aperture_ratio(self, value: float) -> None: ...
     @property
     def aperture_rotation(self) -> float:
         """
         of the blades, radians
         """
     @aperture_rotation.setter
-    def aperture_rotation(self, value: float) -> None:
-        ...
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
         nothing farther is seen, metres; above 0
         """
     @clip_far.setter
-    def clip_far(self, value: float) -> None:
-        ...
+    def clip_far(self, value: float) -> None: ...
     @property
     def clip_near(self) -> float:
         """
         nothing nearer is seen, metres; at least 0
         """
     @clip_near.setter
-    def clip_near(self, value: float) -> None:
-        ...
+    def clip_near(self, value: float) -> None: ...
     @property
     def focal_length(self) -> float:
         """
         in the window's unit; above 0
         """
     @focal_length.setter
-    def focal_length(self, value: float) -> None:
-        ...
+    def focal_length(self, value: float) -> None: ...
     @property
     def focus_distance(self) -> float:
         """
         what is that far is sharp, metres; above 0
         """
     @focus_distance.setter
-    def focus_distance(self, value: float) -> None:
-        ...
+    def focus_distance(self, value: float) -> None: ...
     @property
     def fov(self) -> float:
         """
         full angle of the circle that is seen, radians; above 0
         """
     @fov.setter
-    def fov(self, value: float) -> None:
-        ...
+    def fov(self, value: float) -> None: ...
     @property
     def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
         """
         camera to world at further times, equally spaced; the last is when the shutter closes
         """
     @motion_transforms.setter
-    def motion_transforms(self, value: collections.abc.Iterable[numpy.typing.ArrayLike]) -> None:
-        ...
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def window_max(self) -> tuple[float, float]:
         """
         upper right corner, in the focal length's unit
         """
     @window_max.setter
-    def window_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def window_min(self) -> tuple[float, float]:
         """
         lower left corner, in the focal length's unit
         """
     @window_min.setter
-    def window_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class FisheyePolynomialCamera:
     """
     A fisheye: the angle from the axis is k0 + k1 r + k2 r^2 + k3 r^3 + k4 r^4, r the distance in the picture.
-    
+
     transform: camera to world; looks along -z, y is up
     window_min: lower left corner, in the polynomial's unit
     window_max: upper right corner, in the polynomial's unit
@@ -3815,150 +2886,157 @@ class FisheyePolynomialCamera:
     k3: the factor of its third power
     k4: the factor of its fourth power
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0), window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0), clip_near: float = 0.0, clip_far: float = ..., aperture_radius: float = 0.0, aperture_blades: int = 0, aperture_rotation: float = 0.0, aperture_ratio: float = 1.0, focus_distance: float = 10.0, motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [], fov: float = 3.1415927, k0: float = 0.0, k1: float = 1.0, k2: float = 0.0, k3: float = 0.0, k4: float = 0.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-1.0, -1.0),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+        fov: float = 3.1415927,
+        k0: float = 0.0,
+        k1: float = 1.0,
+        k2: float = 0.0,
+        k3: float = 0.0,
+        k4: float = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aperture_blades(self) -> int:
         """
         corners of the aperture; below 3 it is round; at least 0
         """
     @aperture_blades.setter
-    def aperture_blades(self, value: int) -> None:
-        ...
+    def aperture_blades(self, value: int) -> None: ...
     @property
     def aperture_radius(self) -> float:
         """
         metres; 0: everything is in focus; at least 0
         """
     @aperture_radius.setter
-    def aperture_radius(self, value: float) -> None:
-        ...
+    def aperture_radius(self, value: float) -> None: ...
     @property
     def aperture_ratio(self) -> float:
         """
         the aperture's height over its width; above 0
         """
     @aperture_ratio.setter
-    def aperture_ratio(self, value: float) -> None:
-        ...
+    def aperture_ratio(self, value: float) -> None: ...
     @property
     def aperture_rotation(self) -> float:
         """
         of the blades, radians
         """
     @aperture_rotation.setter
-    def aperture_rotation(self, value: float) -> None:
-        ...
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
         nothing farther is seen, metres; above 0
         """
     @clip_far.setter
-    def clip_far(self, value: float) -> None:
-        ...
+    def clip_far(self, value: float) -> None: ...
     @property
     def clip_near(self) -> float:
         """
         nothing nearer is seen, metres; at least 0
         """
     @clip_near.setter
-    def clip_near(self, value: float) -> None:
-        ...
+    def clip_near(self, value: float) -> None: ...
     @property
     def focus_distance(self) -> float:
         """
         what is that far is sharp, metres; above 0
         """
     @focus_distance.setter
-    def focus_distance(self, value: float) -> None:
-        ...
+    def focus_distance(self, value: float) -> None: ...
     @property
     def fov(self) -> float:
         """
         full angle of what is seen, radians; above 0
         """
     @fov.setter
-    def fov(self, value: float) -> None:
-        ...
+    def fov(self, value: float) -> None: ...
     @property
     def k0(self) -> float:
         """
         of the angle's polynomial in the distance, radians
         """
     @k0.setter
-    def k0(self, value: float) -> None:
-        ...
+    def k0(self, value: float) -> None: ...
     @property
     def k1(self) -> float:
         """
         the factor of the distance
         """
     @k1.setter
-    def k1(self, value: float) -> None:
-        ...
+    def k1(self, value: float) -> None: ...
     @property
     def k2(self) -> float:
         """
         the factor of its square
         """
     @k2.setter
-    def k2(self, value: float) -> None:
-        ...
+    def k2(self, value: float) -> None: ...
     @property
     def k3(self) -> float:
         """
         the factor of its third power
         """
     @k3.setter
-    def k3(self, value: float) -> None:
-        ...
+    def k3(self, value: float) -> None: ...
     @property
     def k4(self) -> float:
         """
         the factor of its fourth power
         """
     @k4.setter
-    def k4(self, value: float) -> None:
-        ...
+    def k4(self, value: float) -> None: ...
     @property
     def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
         """
         camera to world at further times, equally spaced; the last is when the shutter closes
         """
     @motion_transforms.setter
-    def motion_transforms(self, value: collections.abc.Iterable[numpy.typing.ArrayLike]) -> None:
-        ...
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def window_max(self) -> tuple[float, float]:
         """
         upper right corner, in the polynomial's unit
         """
     @window_max.setter
-    def window_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def window_min(self) -> tuple[float, float]:
         """
         lower left corner, in the polynomial's unit
         """
     @window_min.setter
-    def window_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class CubemapFaceCamera:
     """
     A face of a cube with pixels evenly spaced in angle.
-    
+
     transform: camera to world; looks along -z, y is up
     window_min: lower left corner, angles from the axis, radians
     window_max: upper right corner, angles from the axis, radians
@@ -3971,102 +3049,115 @@ class CubemapFaceCamera:
     focus_distance: what is that far is sharp, metres; above 0
     motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-0.7853982, -0.7853982), window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.7853982, 0.7853982), clip_near: float = 0.0, clip_far: float = ..., aperture_radius: float = 0.0, aperture_blades: int = 0, aperture_rotation: float = 0.0, aperture_ratio: float = 1.0, focus_distance: float = 10.0, motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = []) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            -0.7853982,
+            -0.7853982,
+        ),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            0.7853982,
+            0.7853982,
+        ),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aperture_blades(self) -> int:
         """
         corners of the aperture; below 3 it is round; at least 0
         """
     @aperture_blades.setter
-    def aperture_blades(self, value: int) -> None:
-        ...
+    def aperture_blades(self, value: int) -> None: ...
     @property
     def aperture_radius(self) -> float:
         """
         metres; 0: everything is in focus; at least 0
         """
     @aperture_radius.setter
-    def aperture_radius(self, value: float) -> None:
-        ...
+    def aperture_radius(self, value: float) -> None: ...
     @property
     def aperture_ratio(self) -> float:
         """
         the aperture's height over its width; above 0
         """
     @aperture_ratio.setter
-    def aperture_ratio(self, value: float) -> None:
-        ...
+    def aperture_ratio(self, value: float) -> None: ...
     @property
     def aperture_rotation(self) -> float:
         """
         of the blades, radians
         """
     @aperture_rotation.setter
-    def aperture_rotation(self, value: float) -> None:
-        ...
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
         nothing farther is seen, metres; above 0
         """
     @clip_far.setter
-    def clip_far(self, value: float) -> None:
-        ...
+    def clip_far(self, value: float) -> None: ...
     @property
     def clip_near(self) -> float:
         """
         nothing nearer is seen, metres; at least 0
         """
     @clip_near.setter
-    def clip_near(self, value: float) -> None:
-        ...
+    def clip_near(self, value: float) -> None: ...
     @property
     def focus_distance(self) -> float:
         """
         what is that far is sharp, metres; above 0
         """
     @focus_distance.setter
-    def focus_distance(self, value: float) -> None:
-        ...
+    def focus_distance(self, value: float) -> None: ...
     @property
     def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
         """
         camera to world at further times, equally spaced; the last is when the shutter closes
         """
     @motion_transforms.setter
-    def motion_transforms(self, value: collections.abc.Iterable[numpy.typing.ArrayLike]) -> None:
-        ...
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def window_max(self) -> tuple[float, float]:
         """
         upper right corner, angles from the axis, radians
         """
     @window_max.setter
-    def window_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def window_min(self) -> tuple[float, float]:
         """
         lower left corner, angles from the axis, radians
         """
     @window_min.setter
-    def window_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class CylindricalCamera:
     """
     A panorama on a cylinder about the y axis.
-    
+
     transform: camera to world; looks along -z, y is up
     window_min: lowest longitude, radians, and height, in radii
     window_max: highest longitude, radians, and height, in radii
@@ -4079,104 +3170,110 @@ class CylindricalCamera:
     focus_distance: what is that far is sharp, metres; above 0
     motion_transforms: camera to world at further times, equally spaced; the last is when the shutter closes
     """
-    def __init__(self, transform: numpy.typing.ArrayLike = ..., window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-3.1415927, -1.0), window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (3.1415927, 1.0), clip_near: float = 0.0, clip_far: float = ..., aperture_radius: float = 0.0, aperture_blades: int = 0, aperture_rotation: float = 0.0, aperture_ratio: float = 1.0, focus_distance: float = 10.0, motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = []) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        transform: numpy.typing.ArrayLike = ...,
+        window_min: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (-3.1415927, -1.0),
+        window_max: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (3.1415927, 1.0),
+        clip_near: float = 0.0,
+        clip_far: float = ...,
+        aperture_radius: float = 0.0,
+        aperture_blades: int = 0,
+        aperture_rotation: float = 0.0,
+        aperture_ratio: float = 1.0,
+        focus_distance: float = 10.0,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def aperture_blades(self) -> int:
         """
         corners of the aperture; below 3 it is round; at least 0
         """
     @aperture_blades.setter
-    def aperture_blades(self, value: int) -> None:
-        ...
+    def aperture_blades(self, value: int) -> None: ...
     @property
     def aperture_radius(self) -> float:
         """
         metres; 0: everything is in focus; at least 0
         """
     @aperture_radius.setter
-    def aperture_radius(self, value: float) -> None:
-        ...
+    def aperture_radius(self, value: float) -> None: ...
     @property
     def aperture_ratio(self) -> float:
         """
         the aperture's height over its width; above 0
         """
     @aperture_ratio.setter
-    def aperture_ratio(self, value: float) -> None:
-        ...
+    def aperture_ratio(self, value: float) -> None: ...
     @property
     def aperture_rotation(self) -> float:
         """
         of the blades, radians
         """
     @aperture_rotation.setter
-    def aperture_rotation(self, value: float) -> None:
-        ...
+    def aperture_rotation(self, value: float) -> None: ...
     @property
     def clip_far(self) -> float:
         """
         nothing farther is seen, metres; above 0
         """
     @clip_far.setter
-    def clip_far(self, value: float) -> None:
-        ...
+    def clip_far(self, value: float) -> None: ...
     @property
     def clip_near(self) -> float:
         """
         nothing nearer is seen, metres; at least 0
         """
     @clip_near.setter
-    def clip_near(self, value: float) -> None:
-        ...
+    def clip_near(self, value: float) -> None: ...
     @property
     def focus_distance(self) -> float:
         """
         what is that far is sharp, metres; above 0
         """
     @focus_distance.setter
-    def focus_distance(self, value: float) -> None:
-        ...
+    def focus_distance(self, value: float) -> None: ...
     @property
     def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
         """
         camera to world at further times, equally spaced; the last is when the shutter closes
         """
     @motion_transforms.setter
-    def motion_transforms(self, value: collections.abc.Iterable[numpy.typing.ArrayLike]) -> None:
-        ...
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         camera to world; looks along -z, y is up
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def window_max(self) -> tuple[float, float]:
         """
         highest longitude, radians, and height, in radii
         """
     @window_max.setter
-    def window_max(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_max(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def window_min(self) -> tuple[float, float]:
         """
         lowest longitude, radians, and height, in radii
         """
     @window_min.setter
-    def window_min(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def window_min(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
+
 class PassInfo:
     """
     A kind of picture that a render can make.
     """
-    def __repr__(self) -> str:
-        ...
+    def __repr__(self) -> str: ...
     @property
     def background(self) -> float:
         """
@@ -4192,10 +3289,11 @@ class PassInfo:
         """
         Blender's name, and the EXR layer's
         """
+
 class RenderSettings:
     """
     How a picture is made.
-    
+
     width: pixels; in [1, 65536]
     height: pixels; in [1, 65536]
     border_x: left edge of the rectangle to render, pixels; at least 0
@@ -4203,6 +3301,8 @@ class RenderSettings:
     border_width: pixels; 0 is the whole width; at least 0
     border_height: pixels; 0 is the whole height; at least 0
     samples: paths for each pixel, the most where sampling is adaptive or time limited; in [1, 16777216]
+    samples_from: the first of the samples to take, a multiple of 64; at least 0
+    samples_to: the end of the samples to take, a multiple of 64 or all; 0 is all; at least 0
     adaptive_threshold: the noise at which a pixel has enough samples; 0 gives every pixel all samples; in [0, 1]
     adaptive_min_samples: samples before the noise is looked at; 0 chooses by the threshold; in [0, 16777216]
     time_limit: seconds after which no more samples are started; 0 is no limit; at least 0
@@ -4212,6 +3312,9 @@ class RenderSettings:
     film_transparent_glass: where the film is transparent, so is the background seen through glass
     film_transparent_roughness: the largest alpha of microfacets that counts as such glass; in [0, 1]
     exposure: multiplies radiance; at least 0
+    mist_start: metres from the camera where the pass Mist begins; at least 0
+    mist_depth: metres from there to where the mist is complete; at least 0
+    mist_falloff: power of the share of that distance; above 0
     shutter_curve: how far the shutter is open at equally spaced times; none: wide open throughout; at least 0
     integrator: how light is computed
     max_bounces: scatterings after which a path ends; in [0, 1024]
@@ -4236,538 +3339,599 @@ class RenderSettings:
     filter_falloff: of gaussian: exp(-falloff * x^2), x in pixels; above 0
     passes: names of the passes to make, as in passes()
     """
-    def __init__(self, width: int = 512, height: int = 512, border_x: int = 0, border_y: int = 0, border_width: int = 0, border_height: int = 0, samples: int = 64, adaptive_threshold: float = 0.0, adaptive_min_samples: int = 0, time_limit: float = 0.0, seed: int = 0, sampler: str = 'sobol', film_transparent: bool = False, film_transparent_glass: bool = False, film_transparent_roughness: float = 0.1, exposure: float = 1.0, shutter_curve: collections.abc.Iterable[float] = [], integrator: str = 'path', max_bounces: int = 12, diffuse_bounces: int = 4, glossy_bounces: int = 4, transmission_bounces: int = 12, volume_bounces: int = 0, transparent_bounces: int = 8, rr_threshold: float = 0.5, light_threshold: float = 0.0, clamp_direct: float = 0.0, clamp_indirect: float = 0.0, blur_glossy: float = 0.0, caustics_reflective: bool = True, caustics_refractive: bool = True, point_light_position: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0), point_light_flux: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0), max_depth: int = 16, bvh_builder: str = 'binned_sah', filter_type: str = 'box', filter_radius: float = 0.5, filter_falloff: float = 2.0, passes: collections.abc.Iterable[str] = ['Combined']) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        width: int = 512,
+        height: int = 512,
+        border_x: int = 0,
+        border_y: int = 0,
+        border_width: int = 0,
+        border_height: int = 0,
+        samples: int = 64,
+        samples_from: int = 0,
+        samples_to: int = 0,
+        adaptive_threshold: float = 0.0,
+        adaptive_min_samples: int = 0,
+        time_limit: float = 0.0,
+        seed: int = 0,
+        sampler: str = "sobol",
+        film_transparent: bool = False,
+        film_transparent_glass: bool = False,
+        film_transparent_roughness: float = 0.1,
+        exposure: float = 1.0,
+        mist_start: float = 5.0,
+        mist_depth: float = 25.0,
+        mist_falloff: float = 2.0,
+        shutter_curve: collections.abc.Iterable[float] = [],
+        integrator: str = "path",
+        max_bounces: int = 12,
+        diffuse_bounces: int = 4,
+        glossy_bounces: int = 4,
+        transmission_bounces: int = 12,
+        volume_bounces: int = 0,
+        transparent_bounces: int = 8,
+        rr_threshold: float = 0.5,
+        light_threshold: float = 0.0,
+        clamp_direct: float = 0.0,
+        clamp_indirect: float = 0.0,
+        blur_glossy: float = 0.0,
+        caustics_reflective: bool = True,
+        caustics_refractive: bool = True,
+        point_light_position: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            0.0,
+            0.0,
+            0.0,
+        ),
+        point_light_flux: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        max_depth: int = 16,
+        bvh_builder: str = "binned_sah",
+        filter_type: str = "box",
+        filter_radius: float = 0.5,
+        filter_falloff: float = 2.0,
+        passes: collections.abc.Iterable[str] = ["Combined"],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def adaptive_min_samples(self) -> int:
         """
         samples before the noise is looked at; 0 chooses by the threshold; in [0, 16777216]
         """
     @adaptive_min_samples.setter
-    def adaptive_min_samples(self, value: int) -> None:
-        ...
+    def adaptive_min_samples(self, value: int) -> None: ...
     @property
     def adaptive_threshold(self) -> float:
         """
         the noise at which a pixel has enough samples; 0 gives every pixel all samples; in [0, 1]
         """
     @adaptive_threshold.setter
-    def adaptive_threshold(self, value: float) -> None:
-        ...
+    def adaptive_threshold(self, value: float) -> None: ...
     @property
     def blur_glossy(self) -> float:
         """
         roughens what paths meet after a blurred scattering; 0 is none; in [0, 10]
         """
     @blur_glossy.setter
-    def blur_glossy(self, value: float) -> None:
-        ...
+    def blur_glossy(self, value: float) -> None: ...
     @property
     def border_height(self) -> int:
         """
         pixels; 0 is the whole height; at least 0
         """
     @border_height.setter
-    def border_height(self, value: int) -> None:
-        ...
+    def border_height(self, value: int) -> None: ...
     @property
     def border_width(self) -> int:
         """
         pixels; 0 is the whole width; at least 0
         """
     @border_width.setter
-    def border_width(self, value: int) -> None:
-        ...
+    def border_width(self, value: int) -> None: ...
     @property
     def border_x(self) -> int:
         """
         left edge of the rectangle to render, pixels; at least 0
         """
     @border_x.setter
-    def border_x(self, value: int) -> None:
-        ...
+    def border_x(self, value: int) -> None: ...
     @property
     def border_y(self) -> int:
         """
         lower edge of the rectangle to render, pixels; at least 0
         """
     @border_y.setter
-    def border_y(self, value: int) -> None:
-        ...
+    def border_y(self, value: int) -> None: ...
     @property
     def bvh_builder(self) -> str:
         """
         which builder makes the trees
         """
     @bvh_builder.setter
-    def bvh_builder(self, value: str) -> None:
-        ...
+    def bvh_builder(self, value: str) -> None: ...
     @property
     def caustics_reflective(self) -> bool:
         """
         glossy reflection after a diffuse one
         """
     @caustics_reflective.setter
-    def caustics_reflective(self, value: bool) -> None:
-        ...
+    def caustics_reflective(self, value: bool) -> None: ...
     @property
     def caustics_refractive(self) -> bool:
         """
         transmission after a diffuse reflection
         """
     @caustics_refractive.setter
-    def caustics_refractive(self, value: bool) -> None:
-        ...
+    def caustics_refractive(self, value: bool) -> None: ...
     @property
     def clamp_direct(self) -> float:
         """
         the most light that a path adds from lights it meets at once; 0 is no limit; at least 0
         """
     @clamp_direct.setter
-    def clamp_direct(self, value: float) -> None:
-        ...
+    def clamp_direct(self, value: float) -> None: ...
     @property
     def clamp_indirect(self) -> float:
         """
         the most light that a path adds after more scatterings; 0 is no limit; at least 0
         """
     @clamp_indirect.setter
-    def clamp_indirect(self, value: float) -> None:
-        ...
+    def clamp_indirect(self, value: float) -> None: ...
     @property
     def diffuse_bounces(self) -> int:
         """
         diffuse reflections after which a path ends; in [0, 1024]
         """
     @diffuse_bounces.setter
-    def diffuse_bounces(self, value: int) -> None:
-        ...
+    def diffuse_bounces(self, value: int) -> None: ...
     @property
     def exposure(self) -> float:
         """
         multiplies radiance; at least 0
         """
     @exposure.setter
-    def exposure(self, value: float) -> None:
-        ...
+    def exposure(self, value: float) -> None: ...
     @property
     def film_transparent(self) -> bool:
         """
         the background has alpha 0
         """
     @film_transparent.setter
-    def film_transparent(self, value: bool) -> None:
-        ...
+    def film_transparent(self, value: bool) -> None: ...
     @property
     def film_transparent_glass(self) -> bool:
         """
         where the film is transparent, so is the background seen through glass
         """
     @film_transparent_glass.setter
-    def film_transparent_glass(self, value: bool) -> None:
-        ...
+    def film_transparent_glass(self, value: bool) -> None: ...
     @property
     def film_transparent_roughness(self) -> float:
         """
         the largest alpha of microfacets that counts as such glass; in [0, 1]
         """
     @film_transparent_roughness.setter
-    def film_transparent_roughness(self, value: float) -> None:
-        ...
+    def film_transparent_roughness(self, value: float) -> None: ...
     @property
     def filter_falloff(self) -> float:
         """
         of gaussian: exp(-falloff * x^2), x in pixels; above 0
         """
     @filter_falloff.setter
-    def filter_falloff(self, value: float) -> None:
-        ...
+    def filter_falloff(self, value: float) -> None: ...
     @property
     def filter_radius(self) -> float:
         """
         half of its width, in pixels; above 0
         """
     @filter_radius.setter
-    def filter_radius(self, value: float) -> None:
-        ...
+    def filter_radius(self, value: float) -> None: ...
     @property
     def filter_type(self) -> str:
         """
         the filter's shape
         """
     @filter_type.setter
-    def filter_type(self, value: str) -> None:
-        ...
+    def filter_type(self, value: str) -> None: ...
     @property
     def glossy_bounces(self) -> int:
         """
         glossy reflections after which a path ends; in [0, 1024]
         """
     @glossy_bounces.setter
-    def glossy_bounces(self, value: int) -> None:
-        ...
+    def glossy_bounces(self, value: int) -> None: ...
     @property
     def height(self) -> int:
         """
         pixels; in [1, 65536]
         """
     @height.setter
-    def height(self, value: int) -> None:
-        ...
+    def height(self, value: int) -> None: ...
     @property
     def integrator(self) -> str:
         """
         how light is computed
         """
     @integrator.setter
-    def integrator(self, value: str) -> None:
-        ...
+    def integrator(self, value: str) -> None: ...
     @property
     def light_threshold(self) -> float:
         """
         light samples that would add less than this are left out by chance, which changes no mean; in [0, 1]
         """
     @light_threshold.setter
-    def light_threshold(self, value: float) -> None:
-        ...
+    def light_threshold(self, value: float) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
         scatterings after which a path ends; in [0, 1024]
         """
     @max_bounces.setter
-    def max_bounces(self, value: int) -> None:
-        ...
+    def max_bounces(self, value: int) -> None: ...
     @property
     def max_depth(self) -> int:
         """
         intersection_test: surfaces that a path may meet; in [1, 1024]
         """
     @max_depth.setter
-    def max_depth(self, value: int) -> None:
-        ...
+    def max_depth(self, value: int) -> None: ...
+    @property
+    def mist_depth(self) -> float:
+        """
+        metres from there to where the mist is complete; at least 0
+        """
+    @mist_depth.setter
+    def mist_depth(self, value: float) -> None: ...
+    @property
+    def mist_falloff(self) -> float:
+        """
+        power of the share of that distance; above 0
+        """
+    @mist_falloff.setter
+    def mist_falloff(self, value: float) -> None: ...
+    @property
+    def mist_start(self) -> float:
+        """
+        metres from the camera where the pass Mist begins; at least 0
+        """
+    @mist_start.setter
+    def mist_start(self, value: float) -> None: ...
     @property
     def passes(self) -> list[str]:
         """
         names of the passes to make, as in passes()
         """
     @passes.setter
-    def passes(self, value: collections.abc.Iterable[str]) -> None:
-        ...
+    def passes(self, value: collections.abc.Iterable[str]) -> None: ...
     @property
     def point_light_flux(self) -> tuple[float, float, float]:
         """
         intersection_test: watts; at least 0
         """
     @point_light_flux.setter
-    def point_light_flux(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def point_light_flux(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def point_light_position(self) -> tuple[float, float, float]:
         """
         intersection_test: the light, world space
         """
     @point_light_position.setter
-    def point_light_position(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    def point_light_position(
+        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+    ) -> None: ...
     @property
     def rr_threshold(self) -> float:
         """
         throughput under which Russian roulette begins; in [0, 1]
         """
     @rr_threshold.setter
-    def rr_threshold(self, value: float) -> None:
-        ...
+    def rr_threshold(self, value: float) -> None: ...
     @property
     def sampler(self) -> str:
         """
         how a pixel's samples are spread: evenly, or each by chance
         """
     @sampler.setter
-    def sampler(self, value: str) -> None:
-        ...
+    def sampler(self, value: str) -> None: ...
     @property
     def samples(self) -> int:
         """
         paths for each pixel, the most where sampling is adaptive or time limited; in [1, 16777216]
         """
     @samples.setter
-    def samples(self, value: int) -> None:
-        ...
+    def samples(self, value: int) -> None: ...
+    @property
+    def samples_from(self) -> int:
+        """
+        the first of the samples to take, a multiple of 64; at least 0
+        """
+    @samples_from.setter
+    def samples_from(self, value: int) -> None: ...
+    @property
+    def samples_to(self) -> int:
+        """
+        the end of the samples to take, a multiple of 64 or all; 0 is all; at least 0
+        """
+    @samples_to.setter
+    def samples_to(self, value: int) -> None: ...
     @property
     def seed(self) -> int:
         """
         another seed, other noise
         """
     @seed.setter
-    def seed(self, value: int) -> None:
-        ...
+    def seed(self, value: int) -> None: ...
     @property
     def shutter_curve(self) -> list[float]:
         """
         how far the shutter is open at equally spaced times; none: wide open throughout; at least 0
         """
     @shutter_curve.setter
-    def shutter_curve(self, value: collections.abc.Iterable[float]) -> None:
-        ...
+    def shutter_curve(self, value: collections.abc.Iterable[float]) -> None: ...
     @property
     def time_limit(self) -> float:
         """
         seconds after which no more samples are started; 0 is no limit; at least 0
         """
     @time_limit.setter
-    def time_limit(self, value: float) -> None:
-        ...
+    def time_limit(self, value: float) -> None: ...
     @property
     def transmission_bounces(self) -> int:
         """
         transmissions after which a path ends; in [0, 1024]
         """
     @transmission_bounces.setter
-    def transmission_bounces(self, value: int) -> None:
-        ...
+    def transmission_bounces(self, value: int) -> None: ...
     @property
     def transparent_bounces(self) -> int:
         """
         transparent surfaces after which a ray ends; in [0, 1024]
         """
     @transparent_bounces.setter
-    def transparent_bounces(self, value: int) -> None:
-        ...
+    def transparent_bounces(self, value: int) -> None: ...
     @property
     def volume_bounces(self) -> int:
         """
         scatterings in volumes after which a path ends; in [0, 1024]
         """
     @volume_bounces.setter
-    def volume_bounces(self, value: int) -> None:
-        ...
+    def volume_bounces(self, value: int) -> None: ...
     @property
     def width(self) -> int:
         """
         pixels; in [1, 65536]
         """
     @width.setter
-    def width(self, value: int) -> None:
-        ...
+    def width(self, value: int) -> None: ...
+
 class Instance:
     """
     A shape placed in the world.
-    
+
     shape: index into Scene.shapes
     transform: object to world
     materials: for each material slot an index into Scene.materials; None is a diffuse grey of 0.8
-    name: for messages
+    name: for messages and the passes CryptoObject
     visibility: RayKind bits: the rays that see it
     motion_transforms: object to world at further times, equally spaced: `transform` is when the shutter opens, the last when it closes; matrices are linear between them
     holdout: a hole in the picture, for camera rays
     shadow_catcher: the camera sees through it, darkened by the shadows of what is none
-    color: for materials that ask
-    pass_index: for materials that ask
-    random: in [0, 1], for materials that ask
     shadow_terminator_offset: cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
     shadow_terminator_shading_offset: how much light is dimmed that grazes the object; in [0, 1]
+    pass_index: for the pass Object Index
+    asset_name: what it is part of, for the passes CryptoAsset; none: `name`
     """
-    def __init__(self, shape: int | None = None, transform: numpy.typing.ArrayLike = ..., materials: collections.abc.Iterable[int | None] = [], name: str = '', visibility: int = 4294967295, motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [], holdout: bool = False, shadow_catcher: bool = False, color: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0), pass_index: float = 0.0, random: float = 0.0, shadow_terminator_offset: float = 0.0, shadow_terminator_shading_offset: float = 0.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(
+        self,
+        shape: int | None = None,
+        transform: numpy.typing.ArrayLike = ...,
+        materials: collections.abc.Iterable[int | None] = [],
+        name: str = "",
+        visibility: int = 4294967295,
+        motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+        holdout: bool = False,
+        shadow_catcher: bool = False,
+        shadow_terminator_offset: float = 0.0,
+        shadow_terminator_shading_offset: float = 0.0,
+        pass_index: int = 0,
+        asset_name: str = "",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float]:
+    def asset_name(self) -> str:
         """
-        for materials that ask
+        what it is part of, for the passes CryptoAsset; none: `name`
         """
-    @color.setter
-    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None:
-        ...
+    @asset_name.setter
+    def asset_name(self, value: str) -> None: ...
     @property
     def holdout(self) -> bool:
         """
         a hole in the picture, for camera rays
         """
     @holdout.setter
-    def holdout(self, value: bool) -> None:
-        ...
+    def holdout(self, value: bool) -> None: ...
     @property
     def materials(self) -> list[int | None]:
         """
         for each material slot an index into Scene.materials; None is a diffuse grey of 0.8
         """
     @materials.setter
-    def materials(self, value: collections.abc.Iterable[int | None]) -> None:
-        ...
+    def materials(self, value: collections.abc.Iterable[int | None]) -> None: ...
     @property
     def motion_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
         """
         object to world at further times, equally spaced: `transform` is when the shutter opens, the last when it closes; matrices are linear between them
         """
     @motion_transforms.setter
-    def motion_transforms(self, value: collections.abc.Iterable[numpy.typing.ArrayLike]) -> None:
-        ...
+    def motion_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def name(self) -> str:
         """
-        for messages
+        for messages and the passes CryptoObject
         """
     @name.setter
-    def name(self, value: str) -> None:
-        ...
+    def name(self, value: str) -> None: ...
     @property
-    def pass_index(self) -> float:
+    def pass_index(self) -> int:
         """
-        for materials that ask
+        for the pass Object Index
         """
     @pass_index.setter
-    def pass_index(self, value: float) -> None:
-        ...
-    @property
-    def random(self) -> float:
-        """
-        in [0, 1], for materials that ask
-        """
-    @random.setter
-    def random(self, value: float) -> None:
-        ...
+    def pass_index(self, value: int) -> None: ...
     @property
     def shadow_catcher(self) -> bool:
         """
         the camera sees through it, darkened by the shadows of what is none
         """
     @shadow_catcher.setter
-    def shadow_catcher(self, value: bool) -> None:
-        ...
+    def shadow_catcher(self, value: bool) -> None: ...
     @property
     def shadow_terminator_offset(self) -> float:
         """
         cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
         """
     @shadow_terminator_offset.setter
-    def shadow_terminator_offset(self, value: float) -> None:
-        ...
+    def shadow_terminator_offset(self, value: float) -> None: ...
     @property
     def shadow_terminator_shading_offset(self) -> float:
         """
         how much light is dimmed that grazes the object; in [0, 1]
         """
     @shadow_terminator_shading_offset.setter
-    def shadow_terminator_shading_offset(self, value: float) -> None:
-        ...
+    def shadow_terminator_shading_offset(self, value: float) -> None: ...
     @property
     def shape(self) -> int | None:
         """
         index into Scene.shapes
         """
     @shape.setter
-    def shape(self, value: int | None) -> None:
-        ...
+    def shape(self, value: int | None) -> None: ...
     @property
     def transform(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         object to world
         """
     @transform.setter
-    def transform(self, value: numpy.typing.ArrayLike) -> None:
-        ...
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def visibility(self) -> int:
         """
         RayKind bits: the rays that see it
         """
     @visibility.setter
-    def visibility(self, value: int) -> None:
-        ...
+    def visibility(self, value: int) -> None: ...
+
 class ShapeTable:
     """
     Entries of a scene by index. Reading gives a copy; assign it back to change the scene.
     """
-    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> Mesh | Sphere:
-        ...
-    def __iter__(self) -> collections.abc.Iterator[Mesh | Sphere]:
-        ...
-    def __len__(self) -> int:
-        ...
-    def __setitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: Mesh | Sphere) -> None:
-        ...
+    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> Mesh | Sphere: ...
+    def __iter__(self) -> collections.abc.Iterator[Mesh | Sphere]: ...
+    def __len__(self) -> int: ...
+    def __setitem__(
+        self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: Mesh | Sphere
+    ) -> None: ...
     def append(self, value: Mesh | Sphere) -> int:
         """
         Adds an entry and returns its index.
         """
+
 class TextureTable:
     """
     Entries of a scene by index. Reading gives a copy; assign it back to change the scene.
     """
-    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> ConstantTexture | CheckerboardTexture | ImageTexture:
-        ...
-    def __iter__(self) -> collections.abc.Iterator[ConstantTexture | CheckerboardTexture | ImageTexture]:
-        ...
-    def __len__(self) -> int:
-        ...
-    def __setitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: ConstantTexture | CheckerboardTexture | ImageTexture) -> None:
-        ...
+    def __getitem__(
+        self, arg0: typing.SupportsInt | typing.SupportsIndex
+    ) -> ConstantTexture | CheckerboardTexture | ImageTexture: ...
+    def __iter__(
+        self,
+    ) -> collections.abc.Iterator[ConstantTexture | CheckerboardTexture | ImageTexture]: ...
+    def __len__(self) -> int: ...
+    def __setitem__(
+        self,
+        arg0: typing.SupportsInt | typing.SupportsIndex,
+        arg1: ConstantTexture | CheckerboardTexture | ImageTexture,
+    ) -> None: ...
     def append(self, value: ConstantTexture | CheckerboardTexture | ImageTexture) -> int:
         """
         Adds an entry and returns its index.
         """
+
 class MaterialTable:
     """
     Entries of a scene by index. Reading gives a copy; assign it back to change the scene.
     """
-    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> Material:
-        ...
-    def __iter__(self) -> collections.abc.Iterator[Material]:
-        ...
-    def __len__(self) -> int:
-        ...
-    def __setitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: Material) -> None:
-        ...
+    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> Material: ...
+    def __iter__(self) -> collections.abc.Iterator[Material]: ...
+    def __len__(self) -> int: ...
+    def __setitem__(
+        self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: Material
+    ) -> None: ...
     def append(self, value: Material) -> int:
         """
         Adds an entry and returns its index.
         """
+
 class InstanceTable:
     """
     Entries of a scene by index. Reading gives a copy; assign it back to change the scene.
     """
-    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> Instance:
-        ...
-    def __iter__(self) -> collections.abc.Iterator[Instance]:
-        ...
-    def __len__(self) -> int:
-        ...
-    def __setitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: Instance) -> None:
-        ...
+    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> Instance: ...
+    def __iter__(self) -> collections.abc.Iterator[Instance]: ...
+    def __len__(self) -> int: ...
+    def __setitem__(
+        self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: Instance
+    ) -> None: ...
     def append(self, value: Instance) -> int:
         """
         Adds an entry and returns its index.
         """
+
 class LightTable:
     """
     Entries of a scene by index. Reading gives a copy; assign it back to change the scene.
     """
-    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> PointLight | SpotLight | SunLight | AreaLight:
-        ...
-    def __iter__(self) -> collections.abc.Iterator[PointLight | SpotLight | SunLight | AreaLight]:
-        ...
-    def __len__(self) -> int:
-        ...
-    def __setitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: PointLight | SpotLight | SunLight | AreaLight) -> None:
-        ...
+    def __getitem__(
+        self, arg0: typing.SupportsInt | typing.SupportsIndex
+    ) -> PointLight | SpotLight | SunLight | AreaLight: ...
+    def __iter__(
+        self,
+    ) -> collections.abc.Iterator[PointLight | SpotLight | SunLight | AreaLight]: ...
+    def __len__(self) -> int: ...
+    def __setitem__(
+        self,
+        arg0: typing.SupportsInt | typing.SupportsIndex,
+        arg1: PointLight | SpotLight | SunLight | AreaLight,
+    ) -> None: ...
     def append(self, value: PointLight | SpotLight | SunLight | AreaLight) -> int:
         """
         Adds an entry and returns its index.
         """
+
 class Scene:
     """
     The description of a scene. No other thread may change it while a Session prepares it.
     """
+
     environment: Environment
     settings: RenderSettings
-    def __init__(self) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
+    def __init__(self) -> None: ...
+    def __repr__(self) -> str: ...
+    def matte_metadata(self, prefix: str = "") -> dict[str, str]:
+        """
+        Entries of an EXR header for the Cryptomatte passes among settings.passes; `prefix` comes before the layers' names.
+        """
+    def range_metadata(self) -> str:
+        """
+        JSON with which samples of which picture settings.samples_from and samples_to choose, for merging.
+        """
     def save(self, path: str | os.PathLike[str]) -> None:
         """
         Writes one JSON file with everything in it, by way of a temporary name. Loading it gives the same picture.
@@ -4781,40 +3945,59 @@ class Scene:
         Raises SceneError naming the first item that can't be rendered, the rule and the value.
         """
     @property
-    def camera(self) -> PerspectiveCamera | OrthographicCamera | EquirectangularCamera | FisheyeEquidistantCamera | FisheyeEquisolidCamera | FisheyePolynomialCamera | CubemapFaceCamera | CylindricalCamera | None:
+    def camera(
+        self,
+    ) -> (
+        PerspectiveCamera
+        | OrthographicCamera
+        | EquirectangularCamera
+        | FisheyeEquidistantCamera
+        | FisheyeEquisolidCamera
+        | FisheyePolynomialCamera
+        | CubemapFaceCamera
+        | CylindricalCamera
+        | None
+    ):
         """
         A copy of the camera, or None; assign to change it.
         """
     @camera.setter
-    def camera(self, arg1: PerspectiveCamera | OrthographicCamera | EquirectangularCamera | FisheyeEquidistantCamera | FisheyeEquisolidCamera | FisheyePolynomialCamera | CubemapFaceCamera | CylindricalCamera | None) -> None:
-        ...
+    def camera(
+        self,
+        arg1: PerspectiveCamera
+        | OrthographicCamera
+        | EquirectangularCamera
+        | FisheyeEquidistantCamera
+        | FisheyeEquisolidCamera
+        | FisheyePolynomialCamera
+        | CubemapFaceCamera
+        | CylindricalCamera
+        | None,
+    ) -> None: ...
     @property
-    def instances(self) -> InstanceTable:
-        ...
+    def instances(self) -> InstanceTable: ...
     @property
     def lights(self) -> LightTable:
         """
         lamps; they don't block rays
         """
     @property
-    def materials(self) -> MaterialTable:
-        ...
+    def materials(self) -> MaterialTable: ...
     @property
     def shapes(self) -> ShapeTable:
         """
         Mesh and Sphere
         """
     @property
-    def textures(self) -> TextureTable:
-        ...
+    def textures(self) -> TextureTable: ...
     @property
     def world_volume(self) -> int | None:
         """
         The index of the material whose volume fills all space; None is empty space.
         """
     @world_volume.setter
-    def world_volume(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None:
-        ...
+    def world_volume(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
+
 class Tile:
     """
     Finished pixels of a rectangle, in the whole picture's coordinates: (0, 0) lower left.
@@ -4823,32 +4006,30 @@ class Tile:
         """
         The pass as (height, width, channels) float32, C-contiguous, row 0 at the bottom. Not a copy.
         """
-    def __repr__(self) -> str:
-        ...
+    def __repr__(self) -> str: ...
     @property
-    def height(self) -> int:
-        ...
+    def height(self) -> int: ...
     @property
-    def passes(self) -> list[str]:
-        ...
+    def passes(self) -> list[str]: ...
     @property
-    def width(self) -> int:
-        ...
+    def sums(self) -> numpy.typing.NDArray[numpy.uint32] | None:
+        """
+        Of a range of the samples: (height, width, words) uint32, which merge_sums() adds up. None where all samples are rendered. Not a copy.
+        """
     @property
-    def x(self) -> int:
-        ...
+    def width(self) -> int: ...
     @property
-    def y(self) -> int:
-        ...
+    def x(self) -> int: ...
+    @property
+    def y(self) -> int: ...
+
 class Progress:
     """
     How far a session is.
     """
-    def __repr__(self) -> str:
-        ...
+    def __repr__(self) -> str: ...
     @property
-    def elapsed_seconds(self) -> float:
-        ...
+    def elapsed_seconds(self) -> float: ...
     @property
     def fraction(self) -> float:
         """
@@ -4875,46 +4056,49 @@ class Progress:
         the mean of those taken so far
         """
     @property
-    def samples_per_second(self) -> float:
-        ...
+    def samples_per_second(self) -> float: ...
+
 class TileIterator:
     """
     What Session.tiles() returns.
     """
-    def __iter__(self) -> TileIterator:
-        ...
-    def __next__(self) -> Tile | None:
-        ...
+    def __iter__(self) -> TileIterator: ...
+    def __next__(self) -> Tile | None: ...
+
 class Session:
     """
     Renders a scene with native threads, which start at once.
-    
+
     Prepares the scene first and keeps its own copy of it. threads: 0 is one for each processor. The values depend on
     neither threads nor tile_size. preparing is called with the fraction done, from 0 to 1, several times in 100 ms while a
     long preparation goes on; what it raises ends that and is raised again. Raises SceneError for a scene that can't be rendered, MemoryError where memory runs
     out; warns with SceneWarning. As a context manager it stops and joins its threads at the end.
     """
-    def __enter__(self) -> Session:
-        ...
-    def __exit__(self, arg0: typing.Any, arg1: typing.Any, arg2: typing.Any) -> None:
-        ...
-    def __init__(self, scene: Scene, *, threads: typing.SupportsInt | typing.SupportsIndex = 0, tile_size: typing.SupportsInt | typing.SupportsIndex = 64, preparing: collections.abc.Callable[[float], None] | None = None) -> None:
-        ...
+    def __enter__(self) -> Session: ...
+    def __exit__(self, arg0: typing.Any, arg1: typing.Any, arg2: typing.Any) -> None: ...
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        threads: typing.SupportsInt | typing.SupportsIndex = 0,
+        tile_size: typing.SupportsInt | typing.SupportsIndex = 64,
+        preparing: collections.abc.Callable[[float], None] | None = None,
+    ) -> None: ...
     def stop(self) -> None:
         """
         No further tile is finished. Any thread may call it, at any time.
         """
-    def tiles(self, poll_seconds: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> TileIterator:
+    def tiles(
+        self, poll_seconds: typing.SupportsFloat | typing.SupportsIndex = 0.1
+    ) -> TileIterator:
         """
         Iterates over tiles as they are finished. Yields None when poll_seconds pass without one, so that the caller
         can look at other things. Ends when all were handed out, or after stop().
         """
     @property
-    def is_stopped(self) -> bool:
-        ...
+    def is_stopped(self) -> bool: ...
     @property
-    def progress(self) -> Progress:
-        ...
+    def progress(self) -> Progress: ...
     @property
     def rect(self) -> tuple[int, int, int, int]:
         """
@@ -4925,20 +4109,45 @@ class Session:
         """
         memory of the trees that rays walk, with the triangles that they hold
         """
-def load_scene(path: str | os.PathLike[str], override_json: str, read_exr: collections.abc.Callable[[str], numpy.typing.ArrayLike]) -> Scene:
+
+def load_scene(
+    path: str | os.PathLike[str],
+    override_json: str,
+    read_exr: collections.abc.Callable[[str], numpy.typing.ArrayLike],
+) -> Scene:
     """
     Reads a scene file; override_json is merged into it first. read_exr(path) gives (height, width, channels)
     float32, row 0 at the bottom.
     """
-def look_at_camera(position: collections.abc.Sequence[float] | numpy.typing.ArrayLike, look_at: collections.abc.Sequence[float] | numpy.typing.ArrayLike, up: collections.abc.Sequence[float] | numpy.typing.ArrayLike, fov: typing.SupportsFloat | typing.SupportsIndex, aspect: typing.SupportsFloat | typing.SupportsIndex) -> PerspectiveCamera:
+
+def look_at_camera(
+    position: collections.abc.Sequence[float] | numpy.typing.ArrayLike,
+    look_at: collections.abc.Sequence[float] | numpy.typing.ArrayLike,
+    up: collections.abc.Sequence[float] | numpy.typing.ArrayLike,
+    fov: typing.SupportsFloat | typing.SupportsIndex,
+    aspect: typing.SupportsFloat | typing.SupportsIndex,
+) -> PerspectiveCamera:
     """
     A perspective camera at `position`, world space, metres. fov is the full vertical angle, radians; aspect is
     width over height. Raises SceneError where these make no camera.
     """
+
+def merge_sums(
+    parts: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.uint32]],
+    passes: collections.abc.Sequence[str],
+    samples: typing.SupportsInt | typing.SupportsIndex,
+    negative_mass: typing.SupportsFloat | typing.SupportsIndex,
+    has_shadow_catchers: bool,
+) -> Tile:
+    """
+    The picture of all samples that several Tile.sums, in their order, have together. The rest is as in Scene.range_metadata(). Raises SceneError.
+    """
+
 def native_version() -> str:
     """
     The version that this module was compiled as.
     """
+
 def passes() -> list[PassInfo]:
     """
     Every pass there is.

@@ -23,6 +23,8 @@ import basicrt
 from .compare import compare
 from .files import check_writable
 from .images import read_combined
+from .merging import RANGE_KEY, merge
+from .rendering import render_with_sums
 
 
 class CommandError(Exception):
@@ -63,10 +65,23 @@ def _make_parser() -> argparse.ArgumentParser:
     )
     render.add_argument("-f", "--frame", type=int, help="the frame of a .blend (default: its own)")
     render.add_argument("--spp", type=int, help="samples per pixel, instead of the scene's")
+    for name, what in (("from", "leave out the samples before"), ("to", "and from")):
+        render.add_argument(
+            f"--samples-{name}",
+            type=int,
+            help=f"{what} this one, a multiple of 64: see `basicrt merge` (only for scene.json)",
+        )
     render.add_argument("--seed", type=int, help="another seed, other noise")
     render.add_argument("--threads", type=int, default=0, help="default: one per processor")
     render.add_argument("--override", help="JSON merged into a scene.json (RFC 7386)")
     render.add_argument("-q", "--quiet", action="store_true", help="show no progress")
+
+    merging = commands.add_parser(
+        "merge", help="make one picture of files with different samples of it"
+    )
+    merging.set_defaults(command=_merge)
+    merging.add_argument("pictures", type=Path, nargs="+", help="by `render --samples-from …`")
+    merging.add_argument("-o", "--output", type=Path, required=True, help="an .exr file")
 
     comparison = commands.add_parser("compare", help="say how much two OpenEXR pictures differ")
     comparison.set_defaults(command=_compare)
@@ -123,9 +138,16 @@ def _render_json(options: argparse.Namespace, output: Path) -> None:
         scene.settings.samples = options.spp
     if options.seed is not None:
         scene.settings.seed = options.seed
+    if options.samples_from is not None:
+        scene.settings.samples_from = options.samples_from
+    if options.samples_to is not None:
+        scene.settings.samples_to = options.samples_to
+    is_range = scene.settings.samples_from > 0 or scene.settings.samples_to > 0
+    if is_range and output.suffix.lower() != ".exr":
+        raise CommandError(f"{output}: a range of the samples needs an .exr file")
     line = None if options.quiet else _ProgressLine()
     try:
-        pictures = basicrt.render(scene, threads=options.threads, progress=line)
+        pictures, sums = render_with_sums(scene, threads=options.threads, progress=line)
     finally:
         if line:
             line.end()
@@ -138,15 +160,19 @@ def _render_json(options: argparse.Namespace, output: Path) -> None:
             "software": f"BasicRT {basicrt.__version__}",
             "samples": str(scene.settings.samples),
             "seed": str(scene.settings.seed),
+            **scene.matte_metadata(),
         }
-        basicrt.write_exr(output, pictures, metadata)
+        if is_range:
+            metadata[RANGE_KEY] = scene.range_metadata()
+        basicrt.write_exr(output, pictures, metadata, sums)
 
 
 def _render_blend(options: argparse.Namespace, output: Path) -> None:
     from .blender import BlenderError, render_blend
 
-    if options.override is not None:
-        raise CommandError("--override: only for scene.json")
+    for name in ("override", "samples_from", "samples_to"):
+        if getattr(options, name) is not None:
+            raise CommandError(f"--{name.replace('_', '-')}: only for scene.json")
     try:
         render_blend(
             options.scene,
@@ -181,6 +207,15 @@ class _ProgressLine:
         """Clear the line."""
         if self._is_terminal:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def _merge(options: argparse.Namespace) -> int:
+    output: Path = options.output
+    if output.suffix.lower() != ".exr":
+        raise CommandError(f"{output}: the name must end in .exr")
+    check_writable(output)
+    merge(options.pictures, output)
+    return 0
 
 
 def _compare(options: argparse.Namespace) -> int:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,19 +24,25 @@ def write_exr(
     path: str | os.PathLike[str],
     pictures: Mapping[str, npt.ArrayLike],
     metadata: Mapping[str, str] | None = None,
+    sums: npt.NDArray[np.uint32] | None = None,
 ) -> None:
     """Writes passes as 32-bit floats, ZIP compressed: Combined as R G B A, others as in Depth.Z or Normal.X.
+
+    `sums` (height, width, words) are those of a range of the samples, as in Tile.sums, for `merge`.
 
     The file appears whole or not at all. Raises SceneError for pictures of unlike sizes, OSError.
     """
     import OpenEXR
 
-    channels: dict[str, Picture] = {}
+    channels: dict[str, npt.NDArray[Any]] = {}
     for name, values in pictures.items():
         picture = _checked_picture(name, values)
         prefix = "" if name == "Combined" else f"{name}."
         for index, letter in enumerate(_channel_letters(name, picture.shape[2])):
             channels[prefix + letter] = np.ascontiguousarray(picture[::-1, :, index])
+    for index in range(0 if sums is None else sums.shape[2]):
+        assert sums is not None
+        channels[f"BasicRT sums.{index:04}"] = np.ascontiguousarray(sums[::-1, :, index])
     if len({channel.shape for channel in channels.values()}) != 1:
         raise SceneError(f"{path}: needs one or more pictures, all of the same size")
 
@@ -142,5 +149,6 @@ def _split_channel_name(name: str) -> tuple[str, str]:
 
 
 def _letter_order(letter: str) -> tuple[int, str]:
-    place = "RGBAXYZ".find(letter)
-    return (place if place >= 0 else len("RGBAXYZ"), letter)
+    order = "UVRGBArgbaXYZ"
+    place = order.find(letter)
+    return (place if place >= 0 else len(order), letter)

@@ -24,7 +24,20 @@ def render(
     neither `threads` nor `tile_size`. `progress` is called after each tile, and ten times a second between tiles.
     Raises SceneError, MemoryError, and what `progress` raises, which ends the rendering.
     """
+    pictures, _ = render_with_sums(scene, threads=threads, tile_size=tile_size, progress=progress)
+    return pictures
+
+
+def render_with_sums(
+    scene: Scene,
+    *,
+    threads: int = 0,
+    tile_size: int = 64,
+    progress: Callable[[Progress], None] | None = None,
+) -> tuple[dict[str, npt.NDArray[np.float32]], npt.NDArray[np.uint32] | None]:
+    """What render() returns, and, of a range of the samples, (height, width, words) sums for merging."""
     settings = scene.settings
+    sums: npt.NDArray[np.uint32] | None = None
     pictures = {
         info.name: np.full(
             (settings.height, settings.width, len(info.channels)), info.background, dtype=np.float32
@@ -39,6 +52,12 @@ def render(
                 columns = slice(tile.x, tile.x + tile.width)
                 for name in tile.passes:
                     pictures[name][rows, columns] = tile[name]
+                part = tile.sums
+                if part is not None:
+                    if sums is None:
+                        shape = (settings.height, settings.width, part.shape[2])
+                        sums = np.zeros(shape, np.uint32)
+                    sums[rows, columns] = part
             if progress is not None:
                 progress(session.progress)
-    return pictures
+    return pictures, sums

@@ -24,28 +24,56 @@ void Bsdf::rebuild(auto&& change) {
   }
 }
 
+namespace {
+
+// What is neither roughened nor a caustic.
+template <class OneLobe>
+constexpr bool is_wide =
+    std::is_same_v<OneLobe, Lambert> || std::is_same_v<OneLobe, OrenNayar> || std::is_same_v<OneLobe, Translucent> ||
+    std::is_same_v<OneLobe, Sheen> || std::is_same_v<OneLobe, Velvet> || std::is_same_v<OneLobe, DiffuseToon> ||
+    std::is_same_v<OneLobe, Transparent>;
+
+}  // namespace
+
 void Bsdf::roughen(float least_alpha) {
   const auto at_least = [&](float& alpha) { alpha = std::max(alpha, least_alpha); };
-  rebuild(Overloaded{[](Lambert&) { return true; }, [](Transparent&) { return true; },
-                     [&](Dielectric& lobe) {
+  const auto roughen_both = [&](auto& facets) {
+    at_least(facets.alpha_x);
+    at_least(facets.alpha_y);
+    return true;
+  };
+  rebuild(Overloaded{[&](Dielectric& lobe) {
                        at_least(lobe.alpha);
                        return true;
                      },
-                     [&]<class Fresnel>(MicrofacetReflection<Fresnel>& lobe) {
-                       at_least(lobe.microfacets.alpha_x);
-                       at_least(lobe.microfacets.alpha_y);
+                     [&](FilmDielectric& lobe) {
+                       at_least(lobe.alpha);
                        return true;
-                     }});
+                     },
+                     [&]<class Fresnel>(MicrofacetReflection<Fresnel>& lobe) { return roughen_both(lobe.microfacets); },
+                     [&](AshikhminShirley& lobe) { return roughen_both(lobe); }, [](GlossyToon&) { return true; },
+                     []<class OneLobe>(OneLobe&)
+                       requires is_wide<OneLobe>
+                     { return true; }});
 }
 
 void Bsdf::remove_glossy(bool removes_reflection, bool removes_transmission) {
-  rebuild(Overloaded{[](Lambert&) { return true; }, [](Transparent&) { return true; },
-                     [&](Dielectric& lobe) {
+  rebuild(Overloaded{[&](Dielectric& lobe) {
                        if (removes_reflection) lobe.reflect_tint = Color(0.0f);
                        if (removes_transmission) lobe.transmit_tint = Color(0.0f);
                        return !(removes_reflection && removes_transmission);
                      },
-                     [&]<class Fresnel>(MicrofacetReflection<Fresnel>&) { return !removes_reflection; }});
+                     [&](FilmDielectric& lobe) {
+                       lobe.is_reflecting = lobe.is_reflecting && !removes_reflection;
+                       lobe.is_transmitting = lobe.is_transmitting && !removes_transmission;
+                       return lobe.is_reflecting || lobe.is_transmitting;
+                     },
+                     [&]<class Fresnel>(MicrofacetReflection<Fresnel>&) { return !removes_reflection; },
+                     [&](AshikhminShirley&) { return !removes_reflection; },
+                     [&](GlossyToon&) { return !removes_reflection; },
+                     []<class OneLobe>(OneLobe&)
+                       requires is_wide<OneLobe>
+                     { return true; }});
 }
 
 void Bsdf::remove_opaque() {
@@ -54,8 +82,10 @@ void Bsdf::remove_opaque() {
 
 float Bsdf::transmission_alpha() const {
   float least = std::numeric_limits<float>::infinity();
-  for (const WeightedLobe& weighted : lobes_.used())
+  for (const WeightedLobe& weighted : lobes_.used()) {
     if (const auto* lobe = std::get_if<Dielectric>(&weighted.lobe)) least = std::min(least, lobe->alpha);
+    if (const auto* lobe = std::get_if<FilmDielectric>(&weighted.lobe)) least = std::min(least, lobe->alpha);
+  }
   return least;
 }
 

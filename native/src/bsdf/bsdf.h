@@ -107,6 +107,10 @@ class Bsdf {
   }
   // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
+  // A better one, of what is scattered in one way: see pass_albedo.cpp.
+  [[nodiscard]] Color albedo(Vec3f wo, ScatterKind kind) const;
+
+  void set_frame(const Frame& shading_frame) { frame_ = shading_frame; }
 
   // Makes microfacets' alpha at least so much, mirrors rough. See adjust.cpp for this and the next.
   void roughen(float least_alpha);
@@ -115,9 +119,6 @@ class Bsdf {
   void remove_opaque();  // all but what passes straight through
   // The alpha of the smoothest interface that light is transmitted through; infinite where there is none.
   [[nodiscard]] float transmission_alpha() const;
-
-  // The frame's tangent matters only to stretched lobes.
-  void set_frame(const Frame& shading_frame) { frame_ = shading_frame; }
 
  private:
   template <class OneLobe>

@@ -8,6 +8,7 @@
 #include "bsdf/fresnel.h"
 #include "bsdf/lobe.h"
 #include "bsdf/microfacets.h"
+#include "bsdf/refraction.h"
 
 namespace basicrt {
 
@@ -41,7 +42,8 @@ struct Dielectric {
     const float cos_incident = std::clamp(dot(wo, normal), 0.0f, 1.0f);
     const Split split = split_light(cos_incident);
     const bool is_reflected = choice < split.reflect_probability;
-    const Vec3f wi = is_reflected ? normal * (2 * cos_incident) - wo : refract(wo, normal, cos_incident, split);
+    const Vec3f wi =
+        is_reflected ? normal * (2 * cos_incident) - wo : refract(wo, normal, cos_incident, split.cos_transmitted, eta);
     if (!(is_reflected ? wi.z > 0 : wi.z < 0 && split.transmittance > 0)) return std::nullopt;
 
     LobeSample sample{wi,
@@ -53,7 +55,7 @@ struct Dielectric {
     sample.weight *= area * microfacets().masking_over_cosine(wo, wi);
     sample.pdf = microfacets().density(normal) / area *
                  (is_reflected ? split.reflect_probability / 4
-                               : (1 - split.reflect_probability) * refraction_jacobian(wo, wi, normal));
+                               : (1 - split.reflect_probability) * refraction_jacobian(wo, wi, normal, eta));
     return sample;
   }
 
@@ -82,18 +84,6 @@ struct Dielectric {
 
   [[nodiscard]] Microfacets microfacets() const { return {alpha, alpha, model}; }
 
-  // Snell's law; unit length again, for rounding adds up from surface to surface.
-  [[nodiscard]] Vec3f refract(Vec3f wo, Vec3f normal, float cos_incident, const Split& split) const {
-    return normalize(normal * (cos_incident / eta - split.cos_transmitted) - wo * (1 / eta));
-  }
-
-  // |d normal / d wi| * (wo . normal), for a normal that refracts wo into wi.
-  [[nodiscard]] float refraction_jacobian(Vec3f wo, Vec3f wi, Vec3f normal) const {
-    const float cos_o = dot(wo, normal), cos_i = dot(wi, normal);
-    const float denominator = cos_i + cos_o / eta;
-    return std::abs(cos_i * cos_o) / std::max(denominator * denominator, 1e-30f);
-  }
-
   [[nodiscard]] LobeValue eval_reflection(Vec3f wo, Vec3f wi) const {
     const Vec3f normal = normalize(wo + wi);
     const Split split = split_light(std::min(dot(wo, normal), 1.0f));
@@ -108,7 +98,7 @@ struct Dielectric {
     const float cos_incident = dot(wo, normal);
     if (!(cos_incident > 0) || !(dot(wi, normal) < 0)) return {};
     const Split split = split_light(std::min(cos_incident, 1.0f));
-    const float density = microfacets().density(normal) * refraction_jacobian(wo, wi, normal);
+    const float density = microfacets().density(normal) * refraction_jacobian(wo, wi, normal, eta);
     return {transmit_tint * (split.transmittance * density * microfacets().masking_over_cosine(wo, wi)),
             (1 - split.reflect_probability) * density / microfacets().projected_area(wo)};
   }

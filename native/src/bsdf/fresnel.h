@@ -71,6 +71,43 @@ struct SchlickFresnel {
   // Over the cosine-weighted hemisphere: the integral of 2 mu (1 - mu)^5 is 1/21.
   [[nodiscard]] Color mean() const { return f0 + (Color(1.0f) - f0) * (1.0f / 21); }
 };
+inline Color clamp_to_unit(Color c) { return max(min(c, Color(1.0f)), Color(0.0f)); }
+
+// Schlick's with a dent near grazing incidence, of which the colour there is known: Kutz, Hasan and Edmondson 2021, "Novel
+// aspects of the Adobe Standard Material".
+struct F82Fresnel {
+  Color f0, dent;
+  [[nodiscard]] Color operator()(float cos_incident) const {
+    const float x = 1 - cos_incident, x2 = x * x, x6 = x2 * x2 * x2;
+    return clamp_to_unit(fresnel_schlick(cos_incident, f0) - dent * (cos_incident * x6));
+  }
+  // The integral of 2 mu^2 (1 - mu)^6 is 1/126. Dents that would reach below zero are cut off, so it may fall short.
+  [[nodiscard]] Color mean() const {
+    return clamp_to_unit(f0 + (Color(1.0f) - f0) * (1.0f / 21) - dent * (1.0f / 126));
+  }
+};
+// What is reflected at about 82 degrees, where the cosine is 1/7: `share` of Schlick's, or all of `reflectance`.
+[[nodiscard]] inline F82Fresnel make_f82_of_reflectance(Color f0, Color reflectance) {
+  constexpr float x = 6.0f / 7, x6 = x * x * x * x * x * x;
+  return {f0, (fresnel_schlick(1.0f / 7, f0) - reflectance) * (7 / x6)};
+}
+[[nodiscard]] inline F82Fresnel make_f82(Color f0, Color share) {
+  return make_f82_of_reflectance(f0, fresnel_schlick(1.0f / 7, f0) * share);
+}
+
+// A dielectric whose reflectance at normal incidence is set to something else; at grazing incidence it stays one.
+struct TintedInterfaceFresnel {
+  float eta;
+  Color f0;
+  // How far the reflectance is from normal to grazing incidence's.
+  [[nodiscard]] static float share_of_grazing(float reflectance, float f0) {
+    return std::clamp((reflectance - f0) / (1 - f0), 0.0f, 1.0f);
+  }
+  [[nodiscard]] Color operator()(float cos_incident) const {
+    return at(share_of_grazing(fresnel_dielectric(cos_incident, eta).reflectance, reflectance_from_ior(eta)));
+  }
+  [[nodiscard]] Color at(float share) const { return f0 + (Color(1.0f) - f0) * share; }
+};
 struct InterfaceFresnel {
   float eta;
   [[nodiscard]] Color operator()(float cos_incident) const {
@@ -83,6 +120,8 @@ struct ConductorFresnel {
     return {fresnel_conductor(cos_incident, eta.x, k.x), fresnel_conductor(cos_incident, eta.y, k.y),
             fresnel_conductor(cos_incident, eta.z, k.z)};
   }
+  // Over the cosine-weighted hemisphere: that of the F82 model with the same ends, as in Blender.
+  [[nodiscard]] Color mean() const { return make_f82_of_reflectance((*this)(1), (*this)(1.0f / 7)).mean(); }
 };
 
 }  // namespace basicrt

@@ -37,8 +37,9 @@ bool is_transparent(const Material& material) {
 
 bool needs_derivatives(const Material& material) {
   bool result = false;
-  const Overloaded leaf{[&](const ConductorShader& node, float) { result |= node.is_stretched(); },
-                        [](const auto& /*round*/, float) {}};
+  const auto leaf = [&]<class Node>(const Node& node, float) {
+    if constexpr (requires { node.is_stretched(); }) result |= node.is_stretched();
+  };
   for_each_leaf(material, leaf);
   for (const Operation& operation : material.operations)
     std::visit([&](const auto& node) { result |= needs_derivatives(node); }, operation);
@@ -59,7 +60,12 @@ Color emitted_radiance(const Material& material, SurfaceSide side) {
                             add(node.radiance, node.strength, weight);
                         },
                         [&](const PrincipledShader& node, float weight) {
-                          varies = varies || node.alpha.is_varying();
+                          // What is above lets through another share in each direction.
+                          const auto is_above = [](const NumberInput& weight_of) {
+                            return weight_of.is_varying() || weight_of.constant > 0;
+                          };
+                          varies = varies || node.alpha.is_varying() || is_above(node.sheen_weight) ||
+                                   is_above(node.coat_weight);
                           add(node.emission, node.emission_strength, node.alpha.constant * weight);
                         },
                         [](const auto& /*dark*/, float) {}};
@@ -88,8 +94,8 @@ int count_lobes(const PrincipledShader& node) {
   if (!may_be(node.alpha, is_some)) return 1;
   const bool is_dielectric = may_be(node.metallic, is_part),
              is_opaque = is_dielectric && may_be(node.transmission, is_part);
-  return may_be(node.alpha, is_part) + may_be(node.metallic, is_some) +
-         (is_dielectric && may_be(node.transmission, is_some)) + 2 * is_opaque;
+  return may_be(node.alpha, is_part) + may_be(node.metallic, is_some) + may_be(node.sheen_weight, is_some) +
+         may_be(node.coat_weight, is_some) + (is_dielectric && may_be(node.transmission, is_some)) + 2 * is_opaque;
 }
 
 }  // namespace

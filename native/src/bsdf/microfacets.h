@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "bsdf/turn.h"
 #include "math/constants.h"
 #include "math/vec.h"
 
@@ -20,6 +21,7 @@ enum class MicrofacetModel : std::uint8_t { ggx, beckmann };
 struct Microfacets {
   float alpha_x = 0, alpha_y = 0;
   MicrofacetModel model = MicrofacetModel::ggx;
+  Turn turn{};  // for whoever uses them: all here is along their own axes
 
   // So smooth that it is taken for a mirror: Cycles' limit.
   [[nodiscard]] bool is_smooth() const { return alpha_x * alpha_y <= 2e-10f; }

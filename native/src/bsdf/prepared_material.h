@@ -14,6 +14,7 @@ struct PreparedMaterial {
   std::optional<SurfaceShading> front, back;  // of each side that is uniform
   std::optional<Medium> medium;               // what its volume is
   bool is_boundary = false;                   // it has a volume and no surface: light passes straight through
+  std::uint32_t matte_id = 0;
 
   PreparedMaterial(Material the_material, const Table<Texture>& textures);
 };

@@ -74,6 +74,15 @@ class CameraView {
     };
     return TransformD({row(right_), row(up_), row(axis_)});
   }
+  // From the camera, or from its plane where it is orthographic.
+  [[nodiscard]] float distance(Vec3f position) const {
+    return std::holds_alternative<OrthographicCamera>(camera_) ? std::abs(dot(position - position_, axis_))
+                                                               : length(position - position_);
+  }
+  // A direction as the camera has it: x to the right, y up, z forward.
+  [[nodiscard]] Vec3f to_camera(Vec3f direction) const {
+    return {dot(direction, right_), dot(direction, up_), dot(direction, axis_)};
+  }
 
  private:
   void set_window(const PerspectiveCamera& camera, Vec2f step);

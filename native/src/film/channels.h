@@ -4,23 +4,125 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace basicrt {
 
-enum class Pass : std::uint8_t { combined, depth, normal };
+enum class Pass : std::uint8_t {
+  combined,
+  depth,
+  normal,
+  mist,
+  position,
+  uv,
+  object_index,
+  material_index,
+  diffuse_direct,
+  diffuse_indirect,
+  diffuse_color,
+  glossy_direct,
+  glossy_indirect,
+  glossy_color,
+  transmission_direct,
+  transmission_indirect,
+  transmission_color,
+  volume_direct,
+  volume_indirect,
+  emission,
+  environment,
+  shadow_catcher,
+  sample_count,
+  denoising_normal,
+  denoising_albedo,
+  denoising_depth,
+  // The first of eight each, two ids with their coverages in every one.
+  crypto_object,
+  crypto_material = crypto_object + 8,
+  crypto_asset = crypto_material + 8,
+};
+
+// How a pixel's value comes from its samples'.
+enum class PassRule : std::uint8_t {
+  own,    // film.cpp says
+  mean,   //
+  light,  // the mean of what the integrator filed, divided by the pass `color` where there is one
+  first,  // that of the first sample that hits anything
+  matte,  // ids ranked by coverage
+};
 
 struct PassInfo {
   Pass pass;
   std::string_view name;      // Blender's, and that of the EXR layer
   std::string_view channels;  // one letter for each
-  float background;           // where no sample hits anything
+  float background = 0;       // where no sample hits anything
+  PassRule rule = PassRule::mean;
+  std::optional<Pass> color = {};
 };
 
+inline constexpr int matte_passes = 8;  // of each kind
+
+namespace detail {
+constexpr PassInfo light(Pass pass, std::string_view name, std::optional<Pass> color = {}) {
+  return {pass, name, "RGB", 0, PassRule::light, color};
+}
+// Small letters: as other programs know them, and some compress those without loss.
+constexpr PassInfo matte(Pass first, int index, std::string_view name) {
+  return {static_cast<Pass>(static_cast<int>(first) + index), name, "rgba", 0, PassRule::matte};
+}
+}  // namespace detail
+
 inline constexpr std::array passes = {
-    PassInfo{Pass::combined, "Combined", "RGBA", 0},
-    PassInfo{Pass::depth, "Depth", "Z", 1e10f},
-    PassInfo{Pass::normal, "Normal", "XYZ", 0},
+    PassInfo{Pass::combined, "Combined", "RGBA", 0, PassRule::own},
+    PassInfo{Pass::depth, "Depth", "Z", 1e10f, PassRule::own},
+    PassInfo{Pass::normal, "Normal", "XYZ", 0, PassRule::own},
+    PassInfo{Pass::mist, "Mist", "Z", 1, PassRule::own},
+    PassInfo{Pass::position, "Position", "XYZ", 0, PassRule::first},
+    PassInfo{Pass::uv, "UV", "UVA"},
+    PassInfo{Pass::object_index, "Object Index", "X", 0, PassRule::first},
+    PassInfo{Pass::material_index, "Material Index", "X", 0, PassRule::first},
+    detail::light(Pass::diffuse_direct, "Diffuse Direct", Pass::diffuse_color),
+    detail::light(Pass::diffuse_indirect, "Diffuse Indirect", Pass::diffuse_color),
+    PassInfo{Pass::diffuse_color, "Diffuse Color", "RGB"},
+    detail::light(Pass::glossy_direct, "Glossy Direct", Pass::glossy_color),
+    detail::light(Pass::glossy_indirect, "Glossy Indirect", Pass::glossy_color),
+    PassInfo{Pass::glossy_color, "Glossy Color", "RGB"},
+    detail::light(Pass::transmission_direct, "Transmission Direct", Pass::transmission_color),
+    detail::light(Pass::transmission_indirect, "Transmission Indirect", Pass::transmission_color),
+    PassInfo{Pass::transmission_color, "Transmission Color", "RGB"},
+    detail::light(Pass::volume_direct, "Volume Direct"),
+    detail::light(Pass::volume_indirect, "Volume Indirect"),
+    detail::light(Pass::emission, "Emission"),
+    detail::light(Pass::environment, "Environment"),
+    PassInfo{Pass::shadow_catcher, "Shadow Catcher", "RGB", 1, PassRule::own},
+    PassInfo{Pass::sample_count, "Debug Sample Count", "X", 0, PassRule::own},
+    PassInfo{Pass::denoising_normal, "Denoising Normal", "XYZ"},
+    PassInfo{Pass::denoising_albedo, "Denoising Albedo", "RGB"},
+    PassInfo{Pass::denoising_depth, "Denoising Depth", "Z"},
+    detail::matte(Pass::crypto_object, 0, "CryptoObject00"),
+    detail::matte(Pass::crypto_object, 1, "CryptoObject01"),
+    detail::matte(Pass::crypto_object, 2, "CryptoObject02"),
+    detail::matte(Pass::crypto_object, 3, "CryptoObject03"),
+    detail::matte(Pass::crypto_object, 4, "CryptoObject04"),
+    detail::matte(Pass::crypto_object, 5, "CryptoObject05"),
+    detail::matte(Pass::crypto_object, 6, "CryptoObject06"),
+    detail::matte(Pass::crypto_object, 7, "CryptoObject07"),
+    detail::matte(Pass::crypto_material, 0, "CryptoMaterial00"),
+    detail::matte(Pass::crypto_material, 1, "CryptoMaterial01"),
+    detail::matte(Pass::crypto_material, 2, "CryptoMaterial02"),
+    detail::matte(Pass::crypto_material, 3, "CryptoMaterial03"),
+    detail::matte(Pass::crypto_material, 4, "CryptoMaterial04"),
+    detail::matte(Pass::crypto_material, 5, "CryptoMaterial05"),
+    detail::matte(Pass::crypto_material, 6, "CryptoMaterial06"),
+    detail::matte(Pass::crypto_material, 7, "CryptoMaterial07"),
+    detail::matte(Pass::crypto_asset, 0, "CryptoAsset00"),
+    detail::matte(Pass::crypto_asset, 1, "CryptoAsset01"),
+    detail::matte(Pass::crypto_asset, 2, "CryptoAsset02"),
+    detail::matte(Pass::crypto_asset, 3, "CryptoAsset03"),
+    detail::matte(Pass::crypto_asset, 4, "CryptoAsset04"),
+    detail::matte(Pass::crypto_asset, 5, "CryptoAsset05"),
+    detail::matte(Pass::crypto_asset, 6, "CryptoAsset06"),
+    detail::matte(Pass::crypto_asset, 7, "CryptoAsset07"),
 };
 static_assert([] {
   for (std::size_t i = 0; i < passes.size(); ++i)
@@ -32,10 +134,18 @@ constexpr const PassInfo& pass_info(Pass pass) { return passes[static_cast<std::
 
 // Where each chosen pass lies among a pixel's floats, one after another in the order of the table.
 struct PassLayout {
-  std::uint32_t mask = 1u << static_cast<unsigned>(Pass::combined);
+  std::uint64_t mask = bit(Pass::combined);
 
-  [[nodiscard]] constexpr bool has(Pass pass) const { return (mask >> static_cast<unsigned>(pass)) & 1u; }
-  constexpr void enable(Pass pass) { mask |= 1u << static_cast<unsigned>(pass); }
+  [[nodiscard]] static constexpr std::uint64_t bit(Pass pass) {
+    return std::uint64_t{1} << static_cast<unsigned>(pass);
+  }
+  [[nodiscard]] constexpr bool has(Pass pass) const { return (mask & bit(pass)) != 0; }
+  [[nodiscard]] constexpr bool has(PassRule rule) const {
+    for (const PassInfo& info : passes)
+      if (info.rule == rule && has(info.pass)) return true;
+    return false;
+  }
+  constexpr void enable(Pass pass) { mask |= bit(pass); }
   [[nodiscard]] constexpr int offset(Pass pass) const {
     int offset = 0;
     for (const PassInfo& info : passes) {
@@ -52,5 +162,18 @@ struct PassLayout {
   }
   constexpr bool operator==(const PassLayout&) const = default;
 };
+static_assert(passes.size() <= 64);
+
+// What the film must be told of each sample beside Combined, Depth and Normal to make the chosen passes.
+[[nodiscard]] constexpr PassLayout recorded_passes(PassLayout chosen) {
+  PassLayout recorded{.mask = 0};
+  for (const PassInfo& info : passes) {
+    if (!chosen.has(info.pass)) continue;
+    const bool is_filmed = info.rule != PassRule::own && info.rule != PassRule::matte;
+    if (is_filmed || info.pass == Pass::mist) recorded.enable(info.pass);
+    if (info.color) recorded.enable(*info.color);
+  }
+  return recorded;
+}
 
 }  // namespace basicrt

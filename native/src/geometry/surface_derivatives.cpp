@@ -72,6 +72,17 @@ void add_derivatives(SurfacePoint& point, const Shape& shape, const Placement& p
   set_normal_change(derivatives, point.shading_normal, placement.world_to_object, local);
 }
 
+void add_radial_tangents(SurfacePoint& point, const Bounds3f& box, const Placement& placement) {
+  const Vec3d local = placement.world_to_object.point(Vec3d(point.position)) - Vec3d(box.center());
+  const Vec3f extent = box.extent();
+  const auto coordinate = [&](std::size_t axis) { return extent[axis] > 0 ? local[axis] / extent[axis] : 0; };
+  const double x = coordinate(0), y = coordinate(1), z = coordinate(2);
+  const std::array<Vec3d, 3> around = {Vec3d{0, -z, y}, Vec3d{-z, 0, x}, Vec3d{-y, x, 0}};
+  // As normals, for Blender does so.
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    point.derivatives->radial_tangents[axis] = Vec3f(placement.world_to_object.transposed_vector(around[axis]));
+}
+
 void add_pixel_change(SurfacePoint& point, const Ray& ray, const RayDifferentials& differentials) {
   set_position_change(point, ray, differentials);
   set_uv_change(*point.derivatives);

@@ -2,6 +2,7 @@
 // All that shading needs to know of a hit.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,8 @@ namespace basicrt {
 struct SurfaceDerivatives {
   Vec3f dpdu, dpdv;  // of position with uv
   Vec3f dndu, dndv;  // of the shading normal with uv
+  // Around the object's axes x, y and z, through the middle of its box, of any length. Zero before add_radial_tangents().
+  std::array<Vec3f, 3> radial_tangents;
   // Zero before add_pixel_change():
   Vec3f dpdx, dpdy;    // of position per pixel
   Vec2f duvdx, duvdy;  // of uv per pixel
@@ -60,6 +63,8 @@ inline constexpr std::size_t surface_hits_at_once = 64;
 
 // What few materials need, and so is worked out only for them.
 void add_derivatives(SurfacePoint& point, const Shape& shape, const Placement& placement);
+// For a point that has its derivatives; `box` is the shape's. Coordinates count in sizes of the box, as in Blender.
+void add_radial_tangents(SurfacePoint& point, const Bounds3f& box, const Placement& placement);
 // For a point that has its derivatives.
 void add_pixel_change(SurfacePoint& point, const Ray& ray, const RayDifferentials& differentials);
 

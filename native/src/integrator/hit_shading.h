@@ -16,12 +16,19 @@
 
 namespace basicrt {
 
+// What only the materials of some instances ask for.
+inline void add_details(const PreparedScene::PreparedInstance& instance, SurfacePoint& point, const Shape& shape,
+                        const Placement& placement) {
+  add_derivatives(point, shape, placement);
+  add_radial_tangents(point, instance.box, placement);
+}
+
 [[nodiscard]] inline SurfacePoint surface_point_at(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
   const PreparedScene::PreparedInstance& instance = scene.instances[hit.instance];
   const Shape& shape = scene.shapes[instance.shape];
   const auto at = [&](const Placement& placement) {
     SurfacePoint point = make_surface_point(shape, placement, ray, hit);
-    if (instance.needs_derivatives) add_derivatives(point, shape, placement);
+    if (instance.needs_derivatives) add_details(instance, point, shape, placement);
     return point;
   };
   return instance.motion.empty() ? at(instance.placement) : at(Placement(transform_at(instance.motion, ray.time)));
@@ -51,7 +58,8 @@ class SurfacePoints {
     }
     make_surface_points(std::span(found).first(count));
     for (const SurfaceHit& hit : std::span(found).first(count))
-      if (scene.instances[hit.hit->instance].needs_derivatives) add_derivatives(*hit.point, *hit.shape, *hit.placement);
+      if (const auto& instance = scene.instances[hit.hit->instance]; instance.needs_derivatives)
+        add_details(instance, *hit.point, *hit.shape, *hit.placement);
     first_ = first;
     end_ = end;
   }
@@ -73,6 +81,7 @@ class SurfacePoints {
           .placement = &instance.placement,
           .object = &instance.info,
           .world_to_camera = &scene.world_to_camera,
+          .object_index = instance.pass_index,
           .material_index = scene.material_of(point).material.pass_index,
           .ray_kinds = ray_kinds};
 }

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "film/film.h"
+#include "integrator/hit_shading.h"
+#include "integrator/pass_recorder.h"
 #include "math/ray.h"
 #include "sampling/sampler.h"
 #include "scene/prepare.h"
@@ -33,8 +35,20 @@ struct CameraPaths {
 // safe: each worker has its own, with the batch's memory in it. The scene must outlive it.
 class Integrator {
  public:
+  explicit Integrator(const PreparedScene& scene) : recorder_(scene) {}
   virtual ~Integrator() = default;
   virtual void render(const CameraPaths& paths, std::span<PixelSample> samples) = 0;
+  // What the last batch said of the passes that are in no PixelSample.
+  [[nodiscard]] const PassRecorder& passes() const { return recorder_; }
+
+ protected:
+  // `sample` is samples[index], that has not seen anything yet.
+  void note_first_hit(std::uint32_t index, const SurfacePoint& point, PixelSample& sample) {
+    record_first_hit(recorder_.scene(), point, sample);
+    if (recorder_.is_active()) recorder_.record_first_hit(index, point);
+  }
+
+  PassRecorder recorder_;
 };
 
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(const PreparedScene& scene);

@@ -23,6 +23,7 @@ void IntersectionTest::render(const CameraPaths& paths, std::span<PixelSample> s
 void IntersectionTest::begin(const CameraPaths& paths, std::span<PixelSample> samples) {
   const PixelSample unseen{.alpha = scene_.settings.is_film_transparent ? 0.0f : 1.0f};
   std::fill(samples.begin(), samples.end(), unseen);
+  recorder_.begin(samples.size());
   rays_ = paths.rays;
   paths_.clear();
   for (std::uint32_t i = 0; i < paths.size(); ++i) paths_.push_back({.sample = i, .sampler = paths.samplers[i]});
@@ -43,7 +44,7 @@ void IntersectionTest::shade(std::span<PixelSample> samples, bool is_camera_ray)
     const SurfacePoint& point = points_[i];
     PixelSample& sample = samples[path.sample];
     sample.alpha = 1;
-    if (is_camera_ray) record_first_hit(scene_, point, sample);
+    if (is_camera_ray) note_first_hit(path.sample, point, sample);
 
     const Vec3f wo = -ray.direction;
     const SurfaceShading shading =

@@ -14,7 +14,7 @@ namespace basicrt {
 
 class IntersectionTest final : public Integrator {
  public:
-  explicit IntersectionTest(const PreparedScene& scene) : scene_(scene) {}
+  explicit IntersectionTest(const PreparedScene& scene) : Integrator(scene), scene_(scene) {}
   void render(const CameraPaths& paths, std::span<PixelSample> samples) override;
 
  private:

@@ -25,7 +25,10 @@ Ray up_to(Ray ray, const SurfacePoint& point) {
 }  // namespace
 
 PathIntegrator::PathIntegrator(const PreparedScene& scene)
-    : scene_(scene), has_volumes_(scene.has_volumes), softens_caustics_(softens_caustics(scene.settings)) {}
+    : Integrator(scene),
+      scene_(scene),
+      has_volumes_(scene.has_volumes),
+      softens_caustics_(softens_caustics(scene.settings)) {}
 
 void PathIntegrator::render(const CameraPaths& paths, std::span<PixelSample> samples) {
   begin(paths, samples);
@@ -38,6 +41,7 @@ void PathIntegrator::render(const CameraPaths& paths, std::span<PixelSample> sam
 
 void PathIntegrator::begin(const CameraPaths& paths, std::span<PixelSample> samples) {
   std::fill(samples.begin(), samples.end(), PixelSample{});
+  recorder_.begin(samples.size());
   rays_ = paths.rays;
   paths_.clear();
   for (std::uint32_t i = 0; i < paths.size(); ++i)
@@ -51,6 +55,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
   shadow_rays_.clear();
   connections_.clear();
   shadow_media_.clear();
+  recorder_.clear_filings();
   std::size_t kept = 0;
   points_.begin();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
@@ -83,7 +88,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
       paths_[kept++] = path;
       continue;
     }
-    if (path.is_camera_ray && !sample.has_hit) record_first_hit(scene_, point, sample);
+    if (path.is_camera_ray && !sample.has_hit) note_first_hit(path.sample, point, sample);
 
     const ShadingContext context = context_of(path, ray, point);
     SurfaceShading shading = shade_at(scene_, point, -ray.direction, context);
@@ -95,6 +100,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
       paths_[kept++] = path;
       continue;
     }
+    if (recorder_.is_active()) record_surface(path, ray, point, shading);
     gather_emission(path, ray, point, shading.emission, sample);
     if (shading.bsdf.is_empty()) continue;
     if (!path.is_last) sample_lights(path, ray, point, shading.bsdf, sample);
@@ -142,43 +148,69 @@ void PathIntegrator::cut_hole(const Path& path, Color share, PixelSample& sample
     sample.alpha -= hole;
 }
 
+// What catchers are compared by is not in the passes.
+bool PathIntegrator::is_filed(const Path& path) const {
+  return recorder_.records_light() &&
+         (path.destination == Destination::picture || path.destination == Destination::behind_catcher);
+}
+
+void PathIntegrator::record_surface(const Path& path, const Ray& ray, const SurfacePoint& point,
+                                    const SurfaceShading& shading) {
+  if (path.destination != Destination::picture && path.destination != Destination::behind_catcher) return;
+  const Bsdf& bsdf = shading.bsdf;
+  if (path.is_camera_ray) recorder_.record_seen(path.sample, -ray.direction, point, bsdf, path.throughput);
+  if (!path.is_specular) return;
+  recorder_.record_glow(path.sample, path.throughput * shading.emission);
+  recorder_.record_features(path.sample, -ray.direction, point, bsdf, path.throughput);
+}
+
 // Light that the path ran into after its last scattering: direct light is what it finds after the first, or none.
-void PathIntegrator::add_light(const Path& path, Color radiance, PixelSample& sample) const {
+void PathIntegrator::add_light(const Path& path, Color radiance, PixelSample& sample, bool is_environment) {
   const RenderSettings& settings = scene_.settings;
-  sum_of(path.destination, sample) +=
-      clamp_light(radiance, path.bounces.total > 1 ? settings.clamp_indirect : settings.clamp_direct);
+  const Color clamped = clamp_light(radiance, path.bounces.total > 1 ? settings.clamp_indirect : settings.clamp_direct);
+  sum_of(path.destination, sample) += clamped;
+  if (is_filed(path)) recorder_.add_found_light(path.sample, path.bounces.total, clamped, is_environment);
+}
+
+void PathIntegrator::add_connection(const Connection& connection, PixelSample& sample) {
+  const Color clamped = clamp_light(connection.radiance, connection.limit);
+  sum_of(connection.destination, sample) += clamped;
+  recorder_.add_sampled_light(connection.sample, connection.filing, clamped);
 }
 
 // Lamps do not block rays: each one between the ray's ends adds its light. pass_media() has seen to those in volumes.
-void PathIntegrator::gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const {
+void PathIntegrator::gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) {
   if (is_in_media(path)) return;
   scene_.lights.for_each_lamp_hit(ray, path.lit_side, [&](const LightHit& hit) { gather_lamp(path, hit, sample); });
 }
 
 // Those are behind everything, where a camera's clipping doesn't reach.
-void PathIntegrator::gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample) const {
+void PathIntegrator::gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample) {
   scene_.lights.for_each_distant_hit(ray, path.lit_side, [&](const LightHit& hit) { gather_lamp(path, hit, sample); });
 }
 
-void PathIntegrator::gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample) const {
+void PathIntegrator::gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample) {
   const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
   add_light(path, path.throughput * hit.radiance * weight, sample);
 }
 
-void PathIntegrator::gather_environment(const Path& path, const Ray& ray, PixelSample& sample) const {
-  if (path.shows_film && scene_.settings.is_film_transparent) {
-    cut_hole(path, Color(1.0f), sample);
-    return;
-  }
+void PathIntegrator::gather_environment(const Path& path, const Ray& ray, PixelSample& sample) {
+  const bool is_hole = path.shows_film && scene_.settings.is_film_transparent;
+  if (is_hole) cut_hole(path, Color(1.0f), sample);
+  if (is_hole && !is_filed(path)) return;
   const Color radiance = scene_.lights.environment_radiance(ray.direction, path.is_camera_ray);
   if (is_black(radiance)) return;
+  if (path.is_specular) recorder_.record_glow(path.sample, path.throughput * radiance);
   const float weight =
       path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_environment(ray.direction));
-  add_light(path, path.throughput * radiance * weight, sample);
+  if (is_hole)  // the pass has what the picture has not
+    recorder_.add_found_light(path.sample, path.bounces.total, path.throughput * radiance * weight, true);
+  else
+    add_light(path, path.throughput * radiance * weight, sample, true);
 }
 
 void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
-                                     PixelSample& sample) const {
+                                     PixelSample& sample) {
   if (is_black(emission)) return;
   const float weight =
       path.is_specular ? 1
@@ -212,17 +244,19 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
   if (is_black(radiance) || !survives_light_roulette(path, radiance)) return;
   const RenderSettings& settings = scene_.settings;
   const float most = path.bounces.total > 0 ? settings.clamp_indirect : settings.clamp_direct;
-  if (!light->casts_shadows) {
-    sum_of(path.destination, sample) += clamp_light(radiance, most);
-    return;
-  }
+  const std::uint32_t filing =
+      is_filed(path) ? recorder_.file(path.sample, path.bounces.total,
+                                      [&] { return light_shares(bsdf, -ray.direction, light->wi, light->kinds); })
+                     : PassRecorder::unfiled;
+  const Connection connection{path.sample, radiance, path.bounces.transparent, most, path.destination, filing};
+  if (!light->casts_shadows) return add_connection(connection, sample);
   append_result(shadow_rays_, [&] { return spawn_shadow_ray(scene_, point, light->wi, light->distance, ray.time); });
   if (path.destination == Destination::catcher_unlit) shadow_rays_.back().kinds = ray_catcher;
   if (has_volumes_) {
     shadow_media_.push_back(media_[path.media]);
     if (is_crossed(point, -ray.direction, light->wi)) cross_surface(shadow_media_.back(), point);
   }
-  connections_.push_back({path.sample, radiance, path.bounces.transparent, most, path.destination});
+  connections_.push_back(connection);
 }
 
 // What the object's shading offset leaves of light that is reflected from a direction.
@@ -272,6 +306,8 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
   if (!scattered || (path.is_last && !is_passed)) return false;
   path.throughput *= scattered->weight * terminator_share(point, scattered->wi);
   if (is_black(path.throughput)) return false;
+  if (path.bounces.total == 0 && scattered->kind != ScatterKind::transparent && is_filed(path))
+    recorder_.note_scattering(path.sample, bsdf, -ray.direction, *scattered);
   count_bounce(path, scattered->kind);
 
   if (has_volumes_ && is_crossed(point, -ray.direction, scattered->wi)) cross_surface(media_[path.media], point);
@@ -341,9 +377,8 @@ bool PathIntegrator::survives_light_roulette(Path& path, Color& radiance) const 
 void PathIntegrator::connect(std::span<PixelSample> samples) {
   if (has_volumes_) return connect_through_media(samples);
   if (scene_.has_transparency) return connect_through_transparency(samples);
-  for_each_unoccluded(scene_.tracer, shadow_rays_, connections_, occluded_, [&](const Connection& connection) {
-    sum_of(connection.destination, samples[connection.sample]) += clamp_light(connection.radiance, connection.limit);
-  });
+  for_each_unoccluded(scene_.tracer, shadow_rays_, connections_, occluded_,
+                      [&](const Connection& connection) { add_connection(connection, samples[connection.sample]); });
 }
 
 // Advances all shadow rays together from surface to surface, dimmed by each, until they arrive or are black.
@@ -356,8 +391,7 @@ void PathIntegrator::connect_through_transparency(std::span<PixelSample> samples
       Ray ray = shadow_rays_[i];
       Connection connection = connections_[i];
       if (!hits_[i].is_hit()) {
-        sum_of(connection.destination, samples[connection.sample]) +=
-            clamp_light(connection.radiance, connection.limit);
+        add_connection(connection, samples[connection.sample]);
         continue;
       }
       if (++connection.transparent_bounces > scene_.settings.transparent_bounces) continue;

@@ -48,6 +48,7 @@ class PathIntegrator final : public Integrator {
     int transparent_bounces;  // before it
     float limit;              // clamps the radiance, as in clamp_light()
     Destination destination;
+    std::uint32_t filing;  // in the passes: PassRecorder's
   };
 
   void begin(const CameraPaths& paths, std::span<PixelSample> samples);
@@ -59,13 +60,16 @@ class PathIntegrator final : public Integrator {
   [[nodiscard]] ShadingContext context_of(const Path& path, const Ray& ray, const SurfacePoint& point) const;
   [[nodiscard]] static Color& sum_of(Destination destination, PixelSample& sample);
   static void cut_hole(const Path& path, Color share, PixelSample& sample);
-  void add_light(const Path& path, Color radiance, PixelSample& sample) const;
-  void gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) const;
-  void gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample) const;
-  void gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample) const;
-  void gather_environment(const Path& path, const Ray& ray, PixelSample& sample) const;
+  void add_light(const Path& path, Color radiance, PixelSample& sample, bool is_environment = false);
+  void gather_lamps(const Path& path, const Ray& ray, PixelSample& sample);
+  void gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample);
+  void gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample);
+  void gather_environment(const Path& path, const Ray& ray, PixelSample& sample);
   void gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
-                       PixelSample& sample) const;
+                       PixelSample& sample);
+  [[nodiscard]] bool is_filed(const Path& path) const;
+  void add_connection(const Connection& connection, PixelSample& sample);
+  void record_surface(const Path& path, const Ray& ray, const SurfacePoint& point, const SurfaceShading& shading);
   void cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, const ShadingContext& context,
                SurfaceShading& shading, PixelSample& sample) const;
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
@@ -86,7 +90,7 @@ class PathIntegrator final : public Integrator {
   [[nodiscard]] bool is_in_media(const Path& path) const { return has_volumes_ && !media_[path.media].is_empty(); }
   [[nodiscard]] Passage pass_media(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point,
                                    PixelSample& sample);
-  void gather_lamps_in_media(const Path& path, const Ray& ray, Color extinction, PixelSample& sample) const;
+  void gather_lamps_in_media(const Path& path, const Ray& ray, Color extinction, PixelSample& sample);
   void sample_lights_in_media(Path& path, const Ray& ray, const MediaSum& media, float length, PixelSample& sample);
   [[nodiscard]] bool scatter_in_media(Path& path, Ray& ray, float distance);
   void cross_surface(MediaStack& media, const SurfacePoint& point) const;

@@ -195,7 +195,7 @@ PathIntegrator::Passage PathIntegrator::pass_media(Path& path, Ray& ray, const H
   Ray segment = ray;
   if (hit.is_hit()) segment.t_max = point.t;
   if (path.is_camera_ray && hit.is_hit() && !sample.has_hit && !scene_.material_of(point).is_boundary)
-    record_first_hit(scene_, point, sample);
+    note_first_hit(path.sample, point, sample);
   gather_lamps_in_media(path, segment, media.extinction, sample);
   if (!is_black(media.emission))
     add_light(path, path.throughput * media.emission * integrated_transmittance(media.extinction, length), sample);
@@ -218,8 +218,7 @@ PathIntegrator::Passage PathIntegrator::pass_media(Path& path, Ray& ray, const H
   return is_black(path.throughput) ? Passage::ended : Passage::passed;
 }
 
-void PathIntegrator::gather_lamps_in_media(const Path& path, const Ray& ray, Color extinction,
-                                           PixelSample& sample) const {
+void PathIntegrator::gather_lamps_in_media(const Path& path, const Ray& ray, Color extinction, PixelSample& sample) {
   scene_.lights.for_each_lamp_hit(ray, path.lit_side, [&](LightHit hit) {
     hit.radiance *= transmittance(extinction, hit.t - ray.t_min);
     gather_lamp(path, hit, sample);
@@ -247,16 +246,17 @@ void PathIntegrator::sample_lights_in_media(Path& path, const Ray& ray, const Me
   if (is_black(radiance) || !survives_light_roulette(path, radiance)) return;
   const RenderSettings& settings = scene_.settings;
   const float most = path.bounces.total > 0 ? settings.clamp_indirect : settings.clamp_direct;
-  if (!light->casts_shadows) {
-    sum_of(path.destination, sample) += clamp_light(radiance, most);
-    return;
-  }
+  const std::uint32_t filing =
+      is_filed(path) ? recorder_.file(path.sample, path.bounces.total, [] { return light_shares(ScatterKind::volume); })
+                     : PassRecorder::unfiled;
+  const Connection connection{path.sample, radiance, path.bounces.transparent, most, path.destination, filing};
+  if (!light->casts_shadows) return add_connection(connection, sample);
   const bool is_unlit = path.destination == Destination::catcher_unlit;
   shadow_rays_.push_back(
       spawn_volume_ray(position, light->wi, is_unlit ? std::uint32_t{ray_catcher} : ray_shadow, ray.time));
   shadow_rays_.back().t_max = light->distance * shadow_ray_share;
   shadow_media_.push_back(media_[path.media]);
-  connections_.push_back({path.sample, radiance, path.bounces.transparent, most, path.destination});
+  connections_.push_back(connection);
 }
 
 // Sends the path on from a collision. False where it ends.
@@ -268,6 +268,7 @@ bool PathIntegrator::scatter_in_media(Path& path, Ray& ray, float distance) {
   if (!(phase.pdf > 0)) return false;
   path.throughput *= phase.value / phase.pdf;
   if (is_black(path.throughput)) return false;
+  if (path.bounces.total == 0 && is_filed(path)) recorder_.note_volume_scattering(path.sample);
   count_bounce(path, ScatterKind::volume);
   const bool is_unlit = path.destination == Destination::catcher_unlit;
   ray = spawn_volume_ray(ray.at(ray.t_min + distance), wi,
@@ -300,8 +301,7 @@ void PathIntegrator::connect_through_media(std::span<PixelSample> samples) {
       const Color extinction = media.sum().extinction;
       if (!hits_[i].is_hit()) {
         connection.radiance *= transmittance(extinction, ray.t_max / shadow_ray_share - ray.t_min);
-        sum_of(connection.destination, samples[connection.sample]) +=
-            clamp_light(connection.radiance, connection.limit);
+        add_connection(connection, samples[connection.sample]);
         continue;
       }
       const SurfacePoint point = surface_point_at(scene_, ray, hits_[i]);

@@ -12,7 +12,8 @@
 
 namespace basicrt {
 
-// 32-bit floats, ZIP compressed; Combined as R G B A, other passes as <Pass>.<channel>. Written to a temporary name
+// 32-bit floats, ZIP compressed; Combined as R G B A, other passes as <Pass>.<channel>; of a range of the
+// samples, the sums as whole numbers too. Written to a temporary name
 // in the same folder, then renamed. Throws SceneError.
 void write_exr(const std::filesystem::path& path, const Film& film,
                const std::vector<std::pair<std::string, std::string>>& metadata = {});

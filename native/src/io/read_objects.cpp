@@ -11,7 +11,7 @@ namespace basicrt {
 namespace {
 
 // "shape", then what every object may have.
-constexpr std::array<std::string_view, 16> shape_object_keys = {"shape",
+constexpr std::array<std::string_view, 17> shape_object_keys = {"shape",
                                                                 "name",
                                                                 "material_name",
                                                                 "materials",
@@ -23,10 +23,11 @@ constexpr std::array<std::string_view, 16> shape_object_keys = {"shape",
                                                                 "holdout",
                                                                 "shadow_catcher",
                                                                 "color",
-                                                                "pass_index",
                                                                 "random",
                                                                 "shadow_terminator_offset",
-                                                                "shadow_terminator_shading_offset"};
+                                                                "shadow_terminator_shading_offset",
+                                                                "pass_index",
+                                                                "asset_name"};
 constexpr auto object_keys = std::span(shape_object_keys).subspan(1);
 
 Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
@@ -108,11 +109,12 @@ void read_object(SceneReader& reader, const JsonValue& object) {
   if (const auto visibility = object.find("visibility")) instance.visibility = read_visibility(*visibility);
   read_optional(object, "holdout", instance.is_holdout);
   read_optional(object, "color", instance.info.color);
-  read_optional(object, "pass_index", instance.info.pass_index);
   read_optional(object, "random", instance.info.random);
   read_optional(object, "shadow_catcher", instance.is_shadow_catcher);
   read_optional(object, "shadow_terminator_offset", instance.shadow_terminator_offset);
   read_optional(object, "shadow_terminator_shading_offset", instance.shadow_terminator_shading_offset);
+  read_optional(object, "pass_index", instance.pass_index);
+  read_optional(object, "asset_name", instance.asset_name);
   if (const auto light = object.find("light")) read_area_light(reader, *light, instance.materials);
   if (is_empty(reader.scene.shapes[instance.shape]))
     object.warn(reader.report, "skipped: the mesh has no triangles");

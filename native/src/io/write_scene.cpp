@@ -126,13 +126,13 @@ Json write_material(const Material& material, const std::string& key, const Scen
     return write_node(material.nodes[0], keys);
   Json json = Json::object();
   if (material.name != key) json["name"] = material.name;
-  if (material.pass_index != 0) json["pass_index"] = write(material.pass_index);
   if (!material.operations.empty()) json["operations"] = Json::array();
   for (const Operation& operation : material.operations) json["operations"].push_back(write_node(operation, keys));
   json["nodes"] = Json::array();
   for (const ShaderNode& node : material.nodes) json["nodes"].push_back(write_node(node, keys));
   if (material.surface != no_node) json["surface"] = material.surface;
   if (material.volume != no_node) json["volume"] = material.volume;
+  if (material.pass_index != 0) json["pass_index"] = material.pass_index;
   return json;
 }
 
@@ -178,13 +178,14 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
   }
   if (instance.is_holdout) json["holdout"] = true;
   if (instance.info.color != Color(1.0f)) json["color"] = write(instance.info.color);
-  if (instance.info.pass_index != 0) json["pass_index"] = write(instance.info.pass_index);
   if (instance.info.random != 0) json["random"] = write(instance.info.random);
   if (instance.is_shadow_catcher) json["shadow_catcher"] = true;
   if (instance.shadow_terminator_offset != 0)
     json["shadow_terminator_offset"] = write(instance.shadow_terminator_offset);
   if (instance.shadow_terminator_shading_offset != 0)
     json["shadow_terminator_shading_offset"] = write(instance.shadow_terminator_shading_offset);
+  if (instance.pass_index != 0) json["pass_index"] = instance.pass_index;
+  if (!instance.asset_name.empty()) json["asset_name"] = instance.asset_name;
   return json;
 }
 

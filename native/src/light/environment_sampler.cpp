@@ -122,10 +122,9 @@ void EnvironmentSampler::draw_skies(int threads) {
 }
 
 void EnvironmentSampler::add_sun(const SunDisc& disc, const EnvironmentLayer& layer) {
-  Sun sun{.disc = disc, .scale = layer.radiance, .seen_by = layer.seen_by, .to_sky = layer.to_image};
-  const TransformD to_sky(sun.to_sky);
-  sun.is_sampled = sun.seen_by != EnvironmentRays::camera && is_one_to_one(to_sky);
-  if (sun.is_sampled) sun.to_world = inverse(to_sky);
+  Sun sun{.disc = disc, .scale = layer.radiance, .seen_by = layer.seen_by, .to_sky = TransformD(layer.to_image)};
+  sun.is_sampled = sun.seen_by != EnvironmentRays::camera && is_one_to_one(sun.to_sky);
+  if (sun.is_sampled) sun.to_world = inverse(sun.to_sky);
   suns_.push_back(sun);
 }
 
@@ -153,8 +152,7 @@ Color EnvironmentSampler::eval(Vec3f direction, bool is_camera_ray) const {
   Color sum = eval_environment(environment_, direction, is_camera_ray);
   const EnvironmentRays unseen = is_camera_ray ? EnvironmentRays::scattered : EnvironmentRays::camera;
   for (const Sun& sun : suns_)
-    if (sun.seen_by != unseen)
-      sum += sun.scale * eval_sun_disc(sun.disc, normalize(Vec3d(sun.to_sky.point(direction))));
+    if (sun.seen_by != unseen) sum += sun.scale * eval_sun_disc(sun.disc, sun.in_sky(direction));
   return sum;
 }
 
@@ -197,11 +195,10 @@ double EnvironmentSampler::pdf_suns(Vec3f direction) const {
   for (std::uint32_t i = 0; i < suns_.size(); ++i) {
     const Sun& sun = suns_[i];
     if (!sun.is_sampled) continue;
-    const TransformD to_sky(sun.to_sky);
-    const double density = pdf_sun_disc(sun.disc, normalize(to_sky.vector(Vec3d(direction))));
+    const double density = pdf_sun_disc(sun.disc, sun.in_sky(direction));
     if (density == 0) continue;
     const double probability = choices_.probability(static_cast<std::uint32_t>(pictures_.size()) + i);
-    sum += probability * density / solid_angle_ratio(to_sky, Vec3d(direction));
+    sum += probability * density / solid_angle_ratio(sun.to_sky, Vec3d(direction));
   }
   return sum;
 }

@@ -39,9 +39,11 @@ class EnvironmentSampler {
     SunDisc disc;
     Color scale;
     EnvironmentRays seen_by;
-    Transform to_sky;          // of a direction, as a point
+    TransformD to_sky;         // of a direction, as a point
     TransformD to_world = {};  // back, where the sun is sampled
     bool is_sampled = false;
+    // Whether a direction is in the disc must be the same to the last bit for its radiance and its density.
+    [[nodiscard]] Vec3d in_sky(Vec3f direction) const { return normalize(to_sky.point(Vec3d(direction))); }
   };
   void draw_skies(int threads);
   void add_sun(const SunDisc& disc, const EnvironmentLayer& layer);

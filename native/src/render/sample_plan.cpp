@@ -21,15 +21,16 @@ int choose_min_samples(const RenderSettings& settings) {
 
 SamplePlan plan_samples(const RenderSettings& settings) {
   const bool is_limited = settings.time_limit > 0, is_adaptive = settings.adaptive_threshold > 0;
-  SamplePlan plan{.round_ends = {}, .adaptive_min_samples = choose_min_samples(settings)};
-  int end = 0;
-  while (end < settings.samples) {
-    int step = settings.samples;
+  SamplePlan plan{
+      .begin = settings.samples_from, .round_ends = {}, .adaptive_min_samples = choose_min_samples(settings)};
+  int end = plan.begin;
+  while (end < settings.samples_end()) {
+    int step = settings.samples_end();
     if (is_limited)
       step = std::clamp(end, 1, 16);  // doubles, so that the first picture is soon there; then even steps
     else if (is_adaptive)
       step = end == 0 ? plan.adaptive_min_samples : std::max(16, end / 4);
-    end += std::min(step, settings.samples - end);
+    end += std::min(step, settings.samples_end() - end);
     plan.round_ends.push_back(end);
   }
   return plan;

@@ -9,6 +9,7 @@
 namespace basicrt {
 
 struct SamplePlan {
+  int begin = 0;                // the first sample
   std::vector<int> round_ends;  // the samples that a pixel has after each round; rising
   int adaptive_min_samples;     // with fewer of them no pixel has enough
 };

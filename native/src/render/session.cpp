@@ -82,7 +82,7 @@ struct Session::State {
   // With the mutex held.
   [[nodiscard]] bool is_done() const { return stop || tiles_handed_out == tiles.size(); }
   [[nodiscard]] double elapsed_seconds() const { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-  [[nodiscard]] std::uint64_t sample_count() const { return pixel_count * scene.settings.samples; }
+  [[nodiscard]] std::uint64_t sample_count() const { return pixel_count * (plan.round_ends.back() - plan.begin); }
   void work();
   void work_tile_by_tile(Worker& worker);
   void work_round_by_round(Worker& worker);
@@ -143,7 +143,7 @@ void Session::State::work_round_by_round(Worker& worker) {
   }
   if (--threads_at_work > 0 || stop) return;
   if (samples_done + samples_spared == sample_count()) is_time_up = false;
-  for (const SharedTile& tile : shared_tiles) hand_out(tile.render->finish());
+  for (SharedTile& tile : shared_tiles) hand_out(tile.render->finish());
 }
 
 void Session::State::hand_out(Tile tile) {

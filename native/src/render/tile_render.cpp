@@ -25,6 +25,12 @@ std::optional<Ray> camera_ray(const PreparedScene& scene, Vec2f place, Sampler& 
 
 }  // namespace
 
+AccumulatorOptions accumulator_options(const PreparedScene& scene, const PixelFilter& filter) {
+  return {.negative_mass = filter.negative_mass(),
+          .has_shadow_catchers = scene.has_shadow_catchers,
+          .samples = scene.settings.samples};
+}
+
 Worker::Worker(const PreparedScene& scene) : integrator(make_integrator(scene)), samples(batch_size) {}
 
 TileRender::TileRender(const PreparedScene& scene, const PixelFilter& filter, const SamplePlan& plan, PixelRect rect)
@@ -32,7 +38,7 @@ TileRender::TileRender(const PreparedScene& scene, const PixelFilter& filter, co
       filter_(filter),
       plan_(plan),
       rect_(rect),
-      accumulator_(rect, scene.settings.passes, filter.negative_mass(), scene.has_shadow_catchers) {
+      accumulator_(rect, scene.settings.passes, accumulator_options(scene, filter)) {
   if (scene.settings.adaptive_threshold > 0) noise_.emplace(rect.width, rect.height, scene.settings.adaptive_threshold);
 }
 
@@ -57,7 +63,8 @@ std::uint64_t TileRender::take_spared() { return std::exchange(spared_, 0); }
 
 bool TileRender::render_round(Worker& worker, const std::function<bool(std::uint64_t)>& go_on) {
   const RenderSettings& settings = scene_.settings;
-  const int begin = next_round_ == 0 ? 0 : plan_.round_ends[next_round_ - 1], end = plan_.round_ends[next_round_];
+  const int begin = next_round_ == 0 ? plan_.begin : plan_.round_ends[next_round_ - 1],
+            end = plan_.round_ends[next_round_];
   ++next_round_;
   const auto render_batch = [&] {
     const std::uint64_t count = worker.paths.size() + std::exchange(worker.unseen, 0);
@@ -89,15 +96,27 @@ void TileRender::add_unseen(Worker& worker, int x, int y, bool is_negative) {
 void TileRender::flush(Worker& worker) {
   const std::span batch = std::span(worker.samples).first(worker.paths.size());
   worker.integrator->render(worker.paths, batch);
+  const PassValues& values = worker.integrator->passes().values();
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const Worker::Place& place = worker.places[i];
     batch[i].radiance *= scene_.settings.exposure;
     batch[i].catcher.behind *= scene_.settings.exposure;
-    accumulator_.add(place.x, place.y, batch[i], place.is_negative);
+    accumulator_.add(place.x, place.y, batch[i], place.is_negative, values.row(i));
     if (noise_) noise_->add(place.x, place.y, batch[i].radiance + batch[i].catcher.lit);
   }
+  for (const MatteSample& matte : values.mattes())
+    if (const Worker::Place& place = worker.places[matte.sample]; !place.is_negative)
+      accumulator_.add_matte(place.x, place.y, matte);
   worker.paths.clear();
   worker.places.clear();
+}
+
+Tile TileRender::finish() {
+  std::vector<std::uint32_t> sums;
+  if (scene_.settings.has_sample_range()) sums = accumulator_.take_words();
+  Tile tile = accumulator_.finish();
+  tile.sums = std::move(sums);
+  return tile;
 }
 
 void TileRender::look_at_noise() {

@@ -33,6 +33,9 @@ struct Worker {
   explicit Worker(const PreparedScene& scene);
 };
 
+// What a film must know of a scene.
+[[nodiscard]] AccumulatorOptions accumulator_options(const PreparedScene& scene, const PixelFilter& filter);
+
 class TileRender {
  public:
   // All of them must outlive it.
@@ -44,7 +47,7 @@ class TileRender {
   bool render_round(Worker& worker, const std::function<bool(std::uint64_t)>& go_on);
   // The samples of the plan that turned out not to be needed, since this was last asked.
   [[nodiscard]] std::uint64_t take_spared();
-  [[nodiscard]] Tile finish() const { return accumulator_.finish(); }
+  [[nodiscard]] Tile finish();
 
  private:
   void add_path(Worker& worker, int x, int y, const Sampler& pixel_sample);

@@ -12,6 +12,8 @@
 
 #include "base/parallel_for.h"
 #include "bsdf/bsdf.h"
+#include "film/cryptomatte.h"
+#include "scene/mattes.h"
 
 namespace basicrt {
 namespace {
@@ -189,12 +191,15 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
     prepared.materials.emplace_back(scene.materials[i], prepared.textures);
   prepared.materials.emplace_back(default_material(), prepared.textures);
+  for (PreparedMaterial& prepared_material : prepared.materials)
+    prepared_material.matte_id = matte_id(prepared_material.material.name);
 
   std::vector<ShapeTree> trees = prepare_shapes(scene, report, previous, prepared, config);
 
   std::vector<TracedInstance> traced;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
+    prepared.has_shadow_catchers = prepared.has_shadow_catchers || instance.is_shadow_catcher;
     if (is_empty(prepared.shapes[instance.shape.index])) continue;
     const Placement placement{TransformD(instance.object_to_world)};
     const auto default_index = static_cast<std::uint32_t>(prepared.materials.size() - 1);
@@ -206,10 +211,14 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
                                   .is_holdout = instance.is_holdout,
                                   .is_shadow_catcher = instance.is_shadow_catcher,
                                   .shadow_terminator_offset = shadow_terminator_offset(scene, instance),
-                                  .shadow_terminator_shading_offset = instance.shadow_terminator_shading_offset});
+                                  .shadow_terminator_shading_offset = instance.shadow_terminator_shading_offset,
+                                  .pass_index = instance.pass_index,
+                                  .object_id = matte_id(instance.name),
+                                  .asset_id = matte_id(asset_name(instance))});
     PreparedScene::PreparedInstance& added = prepared.instances.back();
     for (const std::uint32_t material : added.materials)
       added.needs_derivatives = added.needs_derivatives || needs_derivatives(prepared.materials[material].material);
+    if (added.needs_derivatives) added.box = bounds(prepared.shapes[added.shape]);
     traced.push_back({.shape = instance.shape.index,
                       .object_to_world = placement.object_to_world,
                       .world_to_object = placement.world_to_object,
@@ -217,7 +226,6 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
                       .motion = added.motion});
     const auto* mesh = std::get_if<Mesh>(&prepared.shapes[instance.shape.index]);
     prepared.has_motion = prepared.has_motion || !added.motion.empty() || (mesh && mesh->is_deforming());
-    prepared.has_shadow_catchers = prepared.has_shadow_catchers || instance.is_shadow_catcher;
   }
   find_volumes(scene, prepared);
   for (const PreparedMaterial& prepared_material : prepared.materials)

@@ -26,9 +26,12 @@ struct PreparedScene {
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
     bool needs_derivatives = false;        // one of the materials does
     ObjectInfo info;
+    Bounds3f box;                          // of the shape, in object space, where they are needed
     bool is_holdout = false;
     bool is_shadow_catcher = false;
     float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
+    int pass_index = 0;
+    std::uint32_t object_id = 0, asset_id = 0;  // of mattes
   };
 
   CameraView view;             // of a camera that stands still

@@ -34,6 +34,8 @@ struct Instance {
   ObjectInfo info;                 // for materials that ask
   // See shadow_terminator.h, both in [0, 1].
   float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
+  int pass_index = 0;      // the pass Object Index
+  std::string asset_name;  // what it is part of, for the passes CryptoAsset; none: `name`
 };
 
 struct Scene {

@@ -31,6 +31,8 @@ struct RenderSettings {
   // The rectangle to render, in pixels, (0, 0) at the lower left; of no size: all of it. Tiles' coordinates are the
   // whole picture's.
   int border_x = 0, border_y = 0, border_width = 0, border_height = 0;
+  // Of the samples only those from the first up to before the second, multiples of sample_block; 0 and 0: all of them.
+  int samples_from = 0, samples_to = 0;
   int samples = 64;              // where sampling is adaptive or the time is limited, the most
   float adaptive_threshold = 0;  // the noise at which a pixel has enough samples; 0 gives all pixels all
   int adaptive_min_samples = 0;  // before that is asked; 0 chooses by the threshold
@@ -43,6 +45,8 @@ struct RenderSettings {
   bool is_glass_transparent = false;         // and what is seen of the background through glass is so too
   float transparent_glass_roughness = 0.1f;  // of the roughest such glass
   float exposure = 1;                        // multiplies radiance
+  // The pass Mist: it begins and is complete so many metres from the camera; the power of the share between them.
+  float mist_start = 5, mist_depth = 25, mist_falloff = 2;
   // How far the shutter is open at equally spaced times from 0 to 1, linear between them; none: wide open throughout.
   std::vector<float> shutter_curve;
 
@@ -62,6 +66,10 @@ struct RenderSettings {
 
   BvhBuilder bvh_builder = BvhBuilder::binned_sah;
 
+  // A part of the picture's samples is rendered: others have the rest, or will.
+  [[nodiscard]] bool has_sample_range() const { return samples_from > 0 || samples_to > 0; }
+  [[nodiscard]] int samples_end() const { return samples_to > 0 ? samples_to : samples; }
+
   static constexpr auto fields() {
     using S = RenderSettings;
     return std::tuple{
@@ -73,6 +81,9 @@ struct RenderSettings {
         field("border_height", &S::border_height, "pixels; 0 is the whole height", at_least(0)),
         field("samples", &S::samples, "paths for each pixel, the most where sampling is adaptive or time limited",
               within(1, 1 << 24)),
+        field("samples_from", &S::samples_from, "the first of the samples to take, a multiple of 64", at_least(0)),
+        field("samples_to", &S::samples_to, "the end of the samples to take, a multiple of 64 or all; 0 is all",
+              at_least(0)),
         field("adaptive_threshold", &S::adaptive_threshold,
               "the noise at which a pixel has enough samples; 0 gives every pixel all samples", within(0, 1)),
         field("adaptive_min_samples", &S::adaptive_min_samples,
@@ -87,6 +98,9 @@ struct RenderSettings {
         field("film_transparent_roughness", &S::transparent_glass_roughness,
               "the largest alpha of microfacets that counts as such glass", within(0, 1)),
         field("exposure", &S::exposure, "multiplies radiance", at_least(0)),
+        field("mist_start", &S::mist_start, "metres from the camera where the pass Mist begins", at_least(0)),
+        field("mist_depth", &S::mist_depth, "metres from there to where the mist is complete", at_least(0)),
+        field("mist_falloff", &S::mist_falloff, "power of the share of that distance", above(0)),
         field("shutter_curve", &S::shutter_curve,
               "how far the shutter is open at equally spaced times; none: wide open throughout", at_least(0)),
         field("integrator", &S::integrator, "how light is computed"),

@@ -256,11 +256,34 @@ void validate_shutter_curve(const std::vector<float>& curve) {
     throw SceneError("settings.shutter_curve", "must not be 0 throughout: the shutter would never open");
 }
 
+// Only whole blocks of samples add up to the same sums.
+void validate_sample_range(const RenderSettings& settings) {
+  if (!settings.has_sample_range()) return;
+  const std::string rule = " of a range of the samples";
+  const auto check = [&](bool is_good, const char* item, const std::string& problem) {
+    if (!is_good) throw SceneError(std::string("settings.") + item, problem);
+  };
+  const int from = settings.samples_from, to = settings.samples_end();
+  const std::string multiple = "must be a multiple of " + std::to_string(sample_block) + ", is ";
+  check(settings.samples > sample_block, "samples",
+        "a range needs more than " + std::to_string(sample_block) + " of them, there are " +
+            std::to_string(settings.samples));
+  check(from % sample_block == 0, "samples_from", multiple + std::to_string(from));
+  check(to % sample_block == 0 || to == settings.samples, "samples_to",
+        multiple + std::to_string(to) + ", or all " + std::to_string(settings.samples));
+  check(from < to && to <= settings.samples, "samples_to",
+        "must be above samples_from and at most " + std::to_string(settings.samples) + ", is " + std::to_string(to));
+  check(settings.adaptive_threshold == 0, "adaptive_threshold", "must be 0: sampling can't be adaptive" + rule);
+  check(settings.time_limit == 0, "time_limit", "must be 0: there is no time limit" + rule);
+  check(!settings.passes.has(PassRule::matte), "passes", "there is no Cryptomatte" + rule);
+}
+
 void validate_settings(const RenderSettings& settings) {
   validate_described(settings, "settings");
   validate_described(settings.filter, "settings.filter");
   validate_border(settings);
   validate_shutter_curve(settings.shutter_curve);
+  validate_sample_range(settings);
   if (settings.passes.mask >> passes.size()) throw SceneError("settings.passes", "names a pass that does not exist");
   if (!settings.passes.has(Pass::combined)) throw SceneError("settings.passes", "Combined must be among them");
 }

@@ -17,7 +17,7 @@ namespace basicrt {
 // Of an object, for Blender's Object Info.
 struct ObjectInfo {
   Color color{1.0f};
-  float pass_index = 0, random = 0;
+  float random = 0;
 };
 
 // What surrounds a point that is shaded. All of it may be missing: then it counts as zero.
@@ -26,7 +26,7 @@ struct ShadingContext {
   const Placement* placement = nullptr;
   const ObjectInfo* object = nullptr;
   const TransformD* world_to_camera = nullptr;  // z points where the camera looks
-  float material_index = 0;
+  int object_index = 0, material_index = 0;
   std::uint32_t ray_kinds = 0;  // RayKind bits
   int bounces = 0, diffuse_bounces = 0, glossy_bounces = 0, transmission_bounces = 0, transparent_bounces = 0;
 };

@@ -23,23 +23,38 @@ using NodeIndex = std::uint32_t;
 inline constexpr NodeIndex no_node = ~0u;
 
 // How a rough surface's facets are turned. Multiscatter GGX also keeps the light that bounces between them, as Blender's
-// nodes do by default; the others lose it.
-enum class FacetDistribution : std::uint8_t { multi_ggx, ggx, beckmann };
+// nodes do by default; the others lose it. Ashikhmin and Shirley's is for the glossy node; others take it for GGX.
+enum class FacetDistribution : std::uint8_t { multi_ggx, ggx, beckmann, ashikhmin_shirley };
 template <>
 inline constexpr std::array enum_names<FacetDistribution> =
-    std::to_array<std::string_view>({"multi_ggx", "ggx", "beckmann"});
+    std::to_array<std::string_view>({"multi_ggx", "ggx", "beckmann", "ashikhmin_shirley"});
 inline constexpr std::string_view facet_distribution_doc = "how the microfacets are turned: multi_ggx, ggx or beckmann";
 inline constexpr std::string_view normal_doc = "in world space, on the viewer's side; zero is the surface's own";
+
+// Along what stretched microfacets lie: the way u grows, or around an axis of the object, through the middle of its box.
+// Blender's nodes go around z where nothing is linked to their Tangent.
+enum class TangentKind : std::uint8_t { uv, radial_x, radial_y, radial_z };
+template <>
+inline constexpr std::array enum_names<TangentKind> =
+    std::to_array<std::string_view>({"uv", "radial_x", "radial_y", "radial_z"});
+inline constexpr std::string_view tangent_doc =
+    "what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z";
+inline constexpr std::string_view rotation_doc = "of that about the normal, in whole turns";
+inline constexpr std::string_view film_thickness_doc = "of a thin film on it, nanometres; 0 is none";
 
 struct DiffuseShader {
   ColorInput color;
   bool is_two_sided = false;
+  NumberInput roughness = 0.0f;
   ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "diffuse";
   static constexpr auto fields() {
-    return std::tuple{field("color", &DiffuseShader::color, "reflectance", within(0, 1)),
-                      field("twosided", &DiffuseShader::is_two_sided, "whether the back reflects too"),
-                      field("normal", &DiffuseShader::normal, normal_doc)};
+    return std::tuple{
+        field("color", &DiffuseShader::color, "reflectance", within(0, 1)),
+        field("twosided", &DiffuseShader::is_two_sided, "whether the back reflects too"),
+        field("normal", &DiffuseShader::normal, normal_doc),
+        field("roughness", &DiffuseShader::roughness,
+              "0 is Lambert's reflection, above that Oren and Nayar's, which keeps all light", within(0, 1))};
   }
 };
 
@@ -48,14 +63,23 @@ struct GlossyShader {
   ColorInput color;
   NumberInput roughness = 0.5f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
+  float anisotropy = 0, rotation = 0;
+  TangentKind tangent = TangentKind::uv;
   ColorInput normal{Vec3f(0.0f)};
+
+  [[nodiscard]] bool is_stretched() const { return anisotropy != 0; }
   static constexpr std::string_view kind = "glossy";
   static constexpr auto fields() {
     return std::tuple{
         field("color", &GlossyShader::color, "reflectance", within(0, 1)),
         field("roughness", &GlossyShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
-        field("distribution", &GlossyShader::distribution, facet_distribution_doc),
-        field("normal", &GlossyShader::normal, normal_doc)};
+        field("distribution", &GlossyShader::distribution,
+              "how the microfacets are turned: multi_ggx, ggx, beckmann or ashikhmin_shirley"),
+        field("normal", &GlossyShader::normal, normal_doc),
+        field("anisotropy", &GlossyShader::anisotropy, "above 0 smoother along the tangent, below 0 across",
+              within(-1, 1)),
+        field("rotation", &GlossyShader::rotation, rotation_doc),
+        field("tangent", &GlossyShader::tangent, tangent_doc)};
   }
 };
 
@@ -76,6 +100,41 @@ struct ConductorShader {
                       field("etaT", &ConductorShader::eta, "refractive index of the metal", at_least(0)),
                       field("k", &ConductorShader::k, "extinction of the metal", at_least(0)),
                       field("ggx", &ConductorShader::is_ggx, "GGX microfacets instead of Beckmann's")};
+  }
+};
+
+// Blender's Metallic node: by two colours, or by measured indices.
+enum class MetalModel : std::uint8_t { f82, physical_conductor };
+template <>
+inline constexpr std::array enum_names<MetalModel> = std::to_array<std::string_view>({"f82", "physical_conductor"});
+
+struct MetallicShader {
+  MetalModel model = MetalModel::f82;
+  ColorInput base_color{Color{0.617f, 0.577f, 0.54f}}, edge_tint{Color{0.695f, 0.726f, 0.77f}};
+  Color ior{2.757f, 2.513f, 2.231f}, extinction{3.867f, 3.404f, 3.009f};
+  float roughness = 0.5f;
+  FacetDistribution distribution = FacetDistribution::multi_ggx;
+  float anisotropy = 0, rotation = 0;
+  TangentKind tangent = TangentKind::uv;
+  float thin_film_thickness = 0, thin_film_ior = 1.33f;
+
+  [[nodiscard]] bool is_stretched() const { return anisotropy != 0; }
+  static constexpr std::string_view kind = "metallic";
+  static constexpr auto fields() {
+    using M = MetallicShader;
+    return std::tuple{
+        field("model", &M::model, "f82: by base_color and edge_tint; physical_conductor: by ior and extinction"),
+        field("base_color", &M::base_color, "reflectance where it is met head on", within(0, 1)),
+        field("edge_tint", &M::edge_tint, "multiplies the reflectance near grazing incidence", within(0, 1)),
+        field("ior", &M::ior, "refractive index of the metal", at_least(0)),
+        field("extinction", &M::extinction, "of the metal", at_least(0)),
+        field("roughness", &M::roughness, "the microfacets' alpha is its square", within(0, 1)),
+        field("distribution", &M::distribution, facet_distribution_doc),
+        field("anisotropy", &M::anisotropy, "above 0 smoother across the tangent", within(0, 1)),
+        field("rotation", &M::rotation, rotation_doc),
+        field("tangent", &M::tangent, tangent_doc),
+        field("thin_film_thickness", &M::thin_film_thickness, film_thickness_doc, at_least(0)),
+        field("thin_film_ior", &M::thin_film_ior, "refractive index of the film", above(0))};
   }
 };
 
@@ -107,6 +166,7 @@ struct GlassShader {
   NumberInput ior = 1.5f;
   NumberInput roughness = 0.0f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
+  float thin_film_thickness = 0, thin_film_ior = 1.33f;
   ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "glass";
   static constexpr auto fields() {
@@ -115,7 +175,9 @@ struct GlassShader {
                       field("eta", &GlassShader::ior, "refractive index inside over outside", above(0)),
                       field("roughness", &GlassShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
                       field("distribution", &GlassShader::distribution, facet_distribution_doc),
-                      field("normal", &GlassShader::normal, normal_doc)};
+                      field("normal", &GlassShader::normal, normal_doc),
+                      field("thin_film_thickness", &GlassShader::thin_film_thickness, film_thickness_doc, at_least(0)),
+                      field("thin_film_ior", &GlassShader::thin_film_ior, "refractive index of the film", above(0))};
   }
 };
 
@@ -124,6 +186,49 @@ struct TransparentShader {
   static constexpr std::string_view kind = "transparent";
   static constexpr auto fields() {
     return std::tuple{field("color", &TransparentShader::color, "what passes straight through", within(0, 1))};
+  }
+};
+
+struct TranslucentShader {
+  ColorInput color;
+  static constexpr std::string_view kind = "translucent";
+  static constexpr auto fields() {
+    return std::tuple{field("color", &TranslucentShader::color, "what goes through, spread evenly", within(0, 1))};
+  }
+};
+
+// Microfibres as simulated by Zeltner et al. 2022, or Ashikhmin's upright microfacets.
+enum class SheenModel : std::uint8_t { microfiber, ashikhmin };
+template <>
+inline constexpr std::array enum_names<SheenModel> = std::to_array<std::string_view>({"microfiber", "ashikhmin"});
+
+struct SheenShader {
+  ColorInput color;
+  float roughness = 0.5f;
+  SheenModel model = SheenModel::microfiber;
+  static constexpr std::string_view kind = "sheen";
+  static constexpr auto fields() {
+    return std::tuple{field("color", &SheenShader::color, "tint", within(0, 1)),
+                      field("roughness", &SheenShader::roughness, "how far from grazing it is seen", within(0, 1)),
+                      field("model", &SheenShader::model, "microfiber or ashikhmin")};
+  }
+};
+
+enum class ToonComponent : std::uint8_t { diffuse, glossy };
+template <>
+inline constexpr std::array enum_names<ToonComponent> = std::to_array<std::string_view>({"diffuse", "glossy"});
+
+// A spot around the normal or the mirrored view.
+struct ToonShader {
+  ColorInput color;
+  ToonComponent component = ToonComponent::diffuse;
+  float size = 0.5f, smooth = 0;
+  static constexpr std::string_view kind = "toon";
+  static constexpr auto fields() {
+    return std::tuple{field("color", &ToonShader::color, "tint", within(0, 1)),
+                      field("component", &ToonShader::component, "diffuse: around the normal; glossy: the reflection"),
+                      field("size", &ToonShader::size, "of the spot, in right angles", within(0, 1)),
+                      field("smooth", &ToonShader::smooth, "width of the soft rim, in right angles", within(0, 1))};
   }
 };
 
@@ -145,7 +250,7 @@ struct HoldoutShader {
   static constexpr auto fields() { return std::tuple{}; }
 };
 
-// Blender's Principled BSDF: the sockets that change an ordinary opaque, metal or glass surface.
+// Blender's Principled BSDF but for its subsurface scattering.
 struct PrincipledShader {
   ColorInput base_color;
   NumberInput metallic = 0.0f, roughness = 0.5f, ior = 1.5f, transmission = 0.0f, specular_ior_level = 0.5f;
@@ -153,7 +258,18 @@ struct PrincipledShader {
   NumberInput emission_strength = 1.0f;
   NumberInput alpha = 1.0f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
+  NumberInput diffuse_roughness = 0.0f;
+  ColorInput specular_tint{Color(1.0f)};
+  float anisotropic = 0, anisotropic_rotation = 0;
+  TangentKind tangent = TangentKind::uv;
+  NumberInput sheen_weight = 0.0f, sheen_roughness = 0.5f;
+  ColorInput sheen_tint{Color(1.0f)};
+  NumberInput coat_weight = 0.0f, coat_roughness = 0.03f, coat_ior = 1.5f;
+  ColorInput coat_tint{Color(1.0f)};
+  float thin_film_thickness = 0, thin_film_ior = 1.33f;
   ColorInput normal{Vec3f(0.0f)};
+
+  [[nodiscard]] bool is_stretched() const { return anisotropic != 0; }
   static constexpr std::string_view kind = "principled";
   static constexpr auto fields() {
     return std::tuple{
@@ -169,7 +285,24 @@ struct PrincipledShader {
         field("emission_strength", &PrincipledShader::emission_strength, "multiplies the emission", at_least(0)),
         field("alpha", &PrincipledShader::alpha, "opacity", within(0, 1)),
         field("distribution", &PrincipledShader::distribution, facet_distribution_doc),
-        field("normal", &PrincipledShader::normal, normal_doc)};
+        field("normal", &PrincipledShader::normal, normal_doc),
+        field("diffuse_roughness", &PrincipledShader::diffuse_roughness, "as of the diffuse shader", within(0, 1)),
+        field("specular_tint", &PrincipledShader::specular_tint,
+              "of a dielectric's reflection where it is met head on, of a metal's near grazing incidence",
+              within(0, 1)),
+        field("anisotropic", &PrincipledShader::anisotropic, "above 0 smoother across the tangent", within(0, 1)),
+        field("anisotropic_rotation", &PrincipledShader::anisotropic_rotation, rotation_doc),
+        field("tangent", &PrincipledShader::tangent, tangent_doc),
+        field("sheen_weight", &PrincipledShader::sheen_weight, "of the fibres on top of all", within(0, 1)),
+        field("sheen_roughness", &PrincipledShader::sheen_roughness, "as of the sheen shader", within(0, 1)),
+        field("sheen_tint", &PrincipledShader::sheen_tint, "colour of the fibres", within(0, 1)),
+        field("coat_weight", &PrincipledShader::coat_weight, "of the clear coat beneath the sheen", within(0, 1)),
+        field("coat_roughness", &PrincipledShader::coat_roughness, "of the coat", within(0, 1)),
+        field("coat_ior", &PrincipledShader::coat_ior, "refractive index of the coat", at_least(1)),
+        field("coat_tint", &PrincipledShader::coat_tint, "what the coat lets through of light from straight above",
+              within(0, 1)),
+        field("thin_film_thickness", &PrincipledShader::thin_film_thickness, film_thickness_doc, at_least(0)),
+        field("thin_film_ior", &PrincipledShader::thin_film_ior, "refractive index of the film", above(0))};
   }
 };
 
@@ -223,9 +356,9 @@ struct AddShader {
   }
 };
 
-using ShaderNode =
-    std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader, TransparentShader,
-                 EmissionShader, HoldoutShader, PrincipledShader, VolumeShader, MixShader, AddShader>;
+using ShaderNode = std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader,
+                                TransparentShader, EmissionShader, HoldoutShader, PrincipledShader, VolumeShader,
+                                MixShader, AddShader, TranslucentShader, MetallicShader, SheenShader, ToonShader>;
 
 // A node refers only to nodes before it, so there is no cycle. A Mix or Add input of no_node is black and opaque,
 // as an empty socket is in Blender.
@@ -234,8 +367,8 @@ struct Material {
   std::vector<ShaderNode> nodes;
   std::vector<Operation> operations;  // each refers only to those before it
   NodeIndex surface = no_node;        // none: black, opaque; with a volume nothing but the volume's boundary
-  float pass_index = 0;               // for operations that ask
   NodeIndex volume = no_node;         // what fills the shape: of VolumeShader and EmissionShader nodes, mixed and added
+  int pass_index = 0;                 // for operations that ask, and for the pass Material Index
 
   OperationIndex add(Operation operation) {
     operations.push_back(std::move(operation));

@@ -101,11 +101,11 @@ Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
     case SurfaceValue::object_color:
       return object.color;
     case SurfaceValue::object_index:
-      return number(object.pass_index);
+      return number(static_cast<float>(context.object_index));
     case SurfaceValue::object_random:
       return number(object.random);
     case SurfaceValue::material_index:
-      return number(context.material_index);
+      return number(static_cast<float>(context.material_index));
     case SurfaceValue::view_vector:
       return normalized(camera_position(in));
     case SurfaceValue::view_depth:

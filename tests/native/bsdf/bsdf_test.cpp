@@ -186,6 +186,8 @@ TEST(LobeCount, counts_every_way_through_the_graph) {
   EXPECT_EQ(lobe_count(make_material(PrincipledShader{})), 2);
   EXPECT_EQ(lobe_count(make_material(all)), 5);
   EXPECT_EQ(lobe_count(make_mix(0.5f, all, DiffuseShader{})), 6);
+  all.sheen_weight = all.coat_weight = 0.5f;
+  EXPECT_EQ(lobe_count(make_material(all)), 7);
 }
 
 TEST(LobeCount, is_quick_for_exponentially_many_ways) {

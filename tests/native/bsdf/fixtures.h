@@ -67,6 +67,35 @@ inline std::vector<NamedMaterial> all_materials() {
     node.alpha = alpha;
     return make_material(node);
   };
+  const auto metallic = [](MetalModel model, float anisotropy, float film) {
+    MetallicShader node;
+    node.model = model;
+    node.anisotropy = anisotropy;
+    node.rotation = 0.15f;
+    node.thin_film_thickness = film;
+    return make_material(node);
+  };
+  const auto filmed_glass = [] {
+    // Light that bounces between facets is added as that of glass without a film.
+    GlassShader node{.roughness = 0.4f, .distribution = FacetDistribution::ggx};
+    node.thin_film_thickness = 500;
+    return make_material(node);
+  };
+  const auto layered = [](float transmission, float film) {
+    PrincipledShader node;
+    node.base_color = Color{0.8f, 0.4f, 0.2f};
+    node.specular_tint = Color{0.9f, 0.3f, 0.5f};
+    node.metallic = 0.3f;
+    node.transmission = transmission;
+    node.diffuse_roughness = 0.5f;
+    node.anisotropic = 0.7f;
+    node.anisotropic_rotation = 0.3f;
+    node.sheen_weight = node.coat_weight = 0.7f;
+    node.coat_roughness = 0.2f;
+    node.coat_tint = Color{0.3f, 0.9f, 0.6f};
+    node.thin_film_thickness = film;
+    return make_material(node);
+  };
   return {
       {"diffuse", make_material(DiffuseShader{Color{0.7f, 0.5f, 0.1f}, true})},
       {"glossy, roughness .1", make_material(GlossyShader{Color(0.9f), 0.1f})},
@@ -90,6 +119,25 @@ inline std::vector<NamedMaterial> all_materials() {
       {"glass, roughness .5, index .8", make_material(GlassShader{Color(1.0f), Color(1.0f), 0.8f, 0.5f})},
       {"principled, dielectric", principled(0, 0.5f, 0, 1)},
       {"principled, all of it", principled(0.3f, 0.4f, 0.5f, 0.7f)},
+      {"diffuse, roughness .4", make_material(DiffuseShader{Color{0.7f, 0.5f, 0.1f}, true, 0.4f})},
+      {"diffuse, roughness 1", make_material(DiffuseShader{Color{0.9f, 0.5f, 0.1f}, true, 1})},
+      {"translucent", make_material(TranslucentShader{Color{0.7f, 0.5f, 0.1f}})},
+      {"sheen, roughness .25", make_material(SheenShader{Color(0.9f), 0.25f})},
+      {"sheen, roughness .8", make_material(SheenShader{Color(0.9f), 0.8f})},
+      {"sheen, Ashikhmin", make_material(SheenShader{Color(0.9f), 0.6f, SheenModel::ashikhmin})},
+      {"toon, diffuse", make_material(ToonShader{Color(0.9f), ToonComponent::diffuse, 0.4f, 0.3f})},
+      {"toon, glossy", make_material(ToonShader{Color(0.9f), ToonComponent::glossy, 0.2f, 0.1f})},
+      {"glossy, Ashikhmin and Shirley",
+       make_material(GlossyShader{Color(0.9f), 0.5f, FacetDistribution::ashikhmin_shirley})},
+      {"glossy, Ashikhmin and Shirley, stretched",
+       make_material(GlossyShader{Color(0.9f), 0.6f, FacetDistribution::ashikhmin_shirley, 0.5f, 0.2f})},
+      {"glossy, stretched", make_material(GlossyShader{Color(0.9f), 0.5f, FacetDistribution::multi_ggx, -0.6f, 0.1f})},
+      {"metallic, stretched", metallic(MetalModel::f82, 0.8f, 0)},
+      {"metallic, filmed", metallic(MetalModel::f82, 0, 420)},
+      {"metallic, measured and filmed", metallic(MetalModel::physical_conductor, 0.3f, 300)},
+      {"glass, filmed", filmed_glass()},
+      {"principled, layered", layered(0, 0)},
+      {"principled, layered and filmed", layered(0.5f, 350)},
       {"diffuse and mirror", make_mix(0.4f, DiffuseShader{Color(0.5f), true}, GlossyShader{Color(0.9f), 0})},
       {"diffuse and glass",
        make_mix(0.7f, DiffuseShader{Color(0.5f), true}, GlassShader{Color(1.0f), Color(1.0f), 1.5f, 0.5f})},

@@ -97,9 +97,9 @@ std::vector<Ray> rays_along_axes(test::Random& rng, Vec3f center, std::uint32_t 
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int seconds_worth_of_rays = 50000;
+constexpr int seconds_worth_of_rays = 50000, rays_at_a_time = 300;
 #else
-constexpr int seconds_worth_of_rays = 500000;
+constexpr int seconds_worth_of_rays = 500000, rays_at_a_time = 3000;
 #endif
 
 // How many rays each kernel is given below: BASICRT_LEAK_RAYS, or as many as take about a second.
@@ -209,7 +209,7 @@ TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_that_deforms) {
   test::Random rng(6);
   const Mesh mesh = deforming_sphere({3, -100, 1e4f});
   for (int i = 0; i < 20; ++i)
-    expect_no_leak(mesh, rays_at_moving_borders(rng, mesh, test::random_time(rng), 3000), test::place(0, {}),
+    expect_no_leak(mesh, rays_at_moving_borders(rng, mesh, test::random_time(rng), rays_at_a_time), test::place(0, {}),
                    "time " + std::to_string(i));
 }
 
@@ -221,7 +221,7 @@ TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_that_deforms_and_moves) {
     const std::vector<TransformD> keys{test::random_transform(rng), test::random_transform(rng)};
     const TransformD transform = transform_at(keys, time);
     if (std::abs(transform.determinant()) < 0.05) continue;  // all but flat: the origin may be rounded out of it
-    std::vector<Ray> rays = rays_at_moving_borders(rng, mesh, time, 3000);
+    std::vector<Ray> rays = rays_at_moving_borders(rng, mesh, time, rays_at_a_time);
     for (Ray& ray : rays) {
       ray.origin = Vec3f(transform.point(Vec3d(ray.origin)));
       ray.direction = Vec3f(transform.vector(Vec3d(ray.direction)));

@@ -130,6 +130,31 @@ TEST(SunDisc, is_darker_at_its_limb_and_cut_by_the_horizon) {
   EXPECT_EQ(at(-0.001), 0);
 }
 
+TEST(SkySampling, every_direction_that_sees_the_sun_has_its_density) {
+  Environment environment;
+  const MultipleScatteringSky sky{.sun_elevation = 0.35f, .sun_rotation = 2.6f};
+  environment.layers = {{.sky = sky}};
+  const EnvironmentSampler sampler(environment, 2);
+  const double radius = double(sky.sun_size) / 2, elevation = double(sky.sun_elevation);
+  const double azimuth = std::numbers::pi / 2 - double(sky.sun_rotation);
+  const Vec3d sun{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                  std::sin(elevation)};
+  const Vec3d right = normalize(Vec3d{-sun.y, sun.x, 0}), up = cross(sun, right);
+  Rng rng(3);
+  int seen = 0;
+  constexpr int count = 20000;
+  for (int i = 0; i < count; ++i) {  // around the limb, as near as single precision tells
+    const double turn = 2 * std::numbers::pi * double(next_unit_vec2(rng).x);
+    const double angle = radius * (1 + 1e-3 * (double(next_unit_vec2(rng).x) - 0.5));
+    const Vec3d offset = right * std::cos(turn) + up * std::sin(turn);
+    const Vec3f direction(normalize(sun * std::cos(angle) + offset * std::sin(angle)));
+    const bool is_bright = luminance(sampler.eval(direction, false)) > 1e3f;
+    seen += is_bright;
+    ASSERT_EQ(is_bright, sampler.pdf(direction) > 1e3f) << i;
+  }
+  EXPECT_NEAR(seen, count / 2, count / 10);
+}
+
 TEST(SkySampling, as_many_samples_are_near_the_sun_as_the_density_says) {
   Environment environment;
   const Transform turned({{{1, 0, 0, 0}, {0, 0.8f, -0.6f, 0}, {0, 0.6f, 0.8f, 0}}});

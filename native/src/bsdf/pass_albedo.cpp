@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What share of the light each way of scattering returns: the passes Diffuse Color and so on.
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "bsdf/albedo.h"
+#include "bsdf/bsdf.h"
+
+namespace basicrt {
+namespace {
+
+// What single scattering by facets leaves of the light, before any Fresnel.
+float facet_albedo(float alpha, float cos_theta) {
+  return alpha > 0 ? 1 / multiple_scattering(std::sqrt(alpha), cos_theta, Color(1.0f)).x : 1;
+}
+
+Color albedo_of(const MicrofacetReflection<InterfaceFresnel>& lobe, float cos_theta) {
+  const float alpha = lobe.microfacets.alpha_x, eta = lobe.fresnel.eta;
+  if (!(alpha > 0) || eta < 1) return lobe.fresnel(cos_theta);
+  const DielectricLayer layer = dielectric_layer(std::sqrt(alpha), eta, cos_theta);
+  return Color(layer.albedo / layer.scale);
+}
+
+template <class Fresnel>
+Color albedo_of(const MicrofacetReflection<Fresnel>& lobe, float cos_theta) {
+  const Microfacets& facets = lobe.microfacets;
+  return lobe.fresnel(cos_theta) * facet_albedo(std::sqrt(facets.alpha_x * facets.alpha_y), cos_theta);
+}
+
+// Whatever else there is returns all that its weight leaves.
+template <class AnyLobe>
+Color albedo_of(const AnyLobe& /*lobe*/, float /*cos_theta*/) {
+  return Color(1.0f);
+}
+
+Color albedo_of(const Dielectric& lobe, float cos_theta, ScatterKind kind) {
+  Dielectric part = lobe;
+  (kind == ScatterKind::glossy ? part.transmit_tint : part.reflect_tint) = Color(0.0f);
+  const Color smooth = part.albedo(cos_theta);
+  if (!(lobe.alpha > 0)) return smooth;
+  return smooth / glass_multiple_scattering(std::sqrt(lobe.alpha), lobe.eta, cos_theta, Color(1.0f));
+}
+
+Color albedo_of(const FilmDielectric& lobe, float cos_theta, ScatterKind kind) {
+  FilmDielectric part = lobe;
+  (kind == ScatterKind::glossy ? part.is_transmitting : part.is_reflecting) = false;
+  const Color smooth = part.albedo(cos_theta);
+  if (!(lobe.alpha > 0)) return smooth;
+  return smooth / glass_multiple_scattering(std::sqrt(lobe.alpha), lobe.eta, cos_theta, Color(1.0f));
+}
+
+// Lobes that reflect and transmit.
+template <class AnyLobe>
+constexpr bool is_two_sided = std::is_same_v<AnyLobe, Dielectric> || std::is_same_v<AnyLobe, FilmDielectric>;
+
+template <class AnyLobe>
+constexpr ScatterKind reflection_kind_of(const AnyLobe& /*lobe*/) {
+  if constexpr (std::is_same_v<AnyLobe, Transparent>)
+    return ScatterKind::transparent;
+  else if constexpr (std::is_same_v<AnyLobe, Translucent>)
+    return ScatterKind::transmission;
+  else if constexpr (requires { AnyLobe::reflection_kind; })
+    return AnyLobe::reflection_kind;
+  else
+    return ScatterKind::glossy;
+}
+
+}  // namespace
+
+Color Bsdf::albedo(Vec3f wo, ScatterKind kind) const {
+  const float cos_theta = std::clamp(find_side(wo).wo.z, 1e-3f, 1.0f);
+  Color sum(0.0f);
+  for (const WeightedLobe& weighted : lobes_.used())
+    sum += weighted.weight * std::visit(
+                                 [&]<class AnyLobe>(const AnyLobe& lobe) {
+                                   if constexpr (is_two_sided<AnyLobe>) {
+                                     const bool is_part =
+                                         kind == ScatterKind::glossy || kind == ScatterKind::transmission;
+                                     return is_part ? albedo_of(lobe, cos_theta, kind) : Color(0.0f);
+                                   } else {
+                                     return reflection_kind_of(lobe) == kind ? albedo_of(lobe, cos_theta) : Color(0.0f);
+                                   }
+                                 },
+                                 weighted.lobe);
+  return sum;
+}
+
+}  // namespace basicrt

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a batch of paths says of the passes: of what the camera sees, and under which heading light goes. Light is filed by
+// the way its path was scattered first, straight passage through transparent surfaces apart.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bsdf/bsdf.h"
+#include "film/pass_values.h"
+#include "scene/prepare.h"
+
+namespace basicrt {
+
+// How much of some light goes under each kind of scattering; adds up to one in each channel.
+struct LightShares {
+  Color diffuse{0.0f}, glossy{0.0f}, transmission{0.0f}, volume{0.0f};
+};
+
+class PassRecorder {
+ public:
+  static constexpr std::uint32_t unfiled = ~0u;
+
+  explicit PassRecorder(const PreparedScene& scene);
+
+  void begin(std::size_t samples);
+  [[nodiscard]] bool is_active() const { return is_active_; }
+  [[nodiscard]] bool records_light() const { return records_light_; }
+  [[nodiscard]] const PassValues& values() const { return values_; }
+  [[nodiscard]] const PreparedScene& scene() const { return scene_; }
+
+  // Of the first thing that a sample sees.
+  void record_first_hit(std::uint32_t sample, const SurfacePoint& point);
+  // Of whatever the camera sees, through transparent surfaces too. `wo` is where the path came from.
+  void record_seen(std::uint32_t sample, Vec3f wo, const SurfacePoint& point, const Bsdf& bsdf, Color throughput);
+  // For denoisers: of the first surface that is no perfect mirror or pane, by way of such.
+  void record_features(std::uint32_t sample, Vec3f wo, const SurfacePoint& point, const Bsdf& bsdf, Color throughput);
+  // What shines there, or behind everything, is its colour too.
+  void record_glow(std::uint32_t sample, Color radiance) {
+    if (is_active_ && has_features_[sample] == 0) values_.add(sample, Pass::denoising_albedo, radiance);
+  }
+
+  // A path's first scattering.
+  void note_scattering(std::uint32_t sample, const Bsdf& bsdf, Vec3f wo, const BsdfSample& scattered);
+  void note_volume_scattering(std::uint32_t sample);
+
+  // Light that a path ran into after so many scatterings.
+  void add_found_light(std::uint32_t sample, int scatterings, Color radiance, bool is_environment);
+  // Where light goes that a path with so many scatterings sampled; `shares_here` is called if this is its first surface.
+  template <class Shares>
+  [[nodiscard]] std::uint32_t file(std::uint32_t sample, int scatterings, Shares&& shares_here) {
+    if (!records_light_) return unfiled;
+    const bool is_direct = scatterings == 0;
+    filings_.push_back({is_direct ? shares_here() : shares_[sample], is_direct});
+    return static_cast<std::uint32_t>(filings_.size() - 1);
+  }
+  void add_sampled_light(std::uint32_t sample, std::uint32_t filing, Color radiance);
+  // Filings are of no use any more.
+  void clear_filings() { filings_.clear(); }
+
+ private:
+  struct Filing {
+    LightShares shares;
+    bool is_direct;
+  };
+  void add(std::uint32_t sample, const Filing& filing, Color radiance);
+
+  const PreparedScene& scene_;
+  PassValues values_;
+  bool has_mattes_, is_active_, records_light_;
+  std::vector<LightShares> shares_;         // of each sample's path, once it was scattered
+  std::vector<std::uint8_t> has_features_;  // of each sample
+  std::vector<Filing> filings_;             // of light samples
+};
+
+// Of light that arrives along `wi` and is scattered towards `wo`, if it is of the kinds (RayKind bits) that a lamp lights.
+[[nodiscard]] LightShares light_shares(const Bsdf& bsdf, Vec3f wo, Vec3f wi, std::uint32_t kinds = ray_all);
+[[nodiscard]] LightShares light_shares(ScatterKind kind);
+
+}  // namespace basicrt
