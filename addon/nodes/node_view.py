@@ -194,6 +194,11 @@ class NodeView:
         """A colour that shines: at least 0."""
         return positive(as_color(self._value(identifier)))
 
+    def varying_light(self, identifier: str) -> Color | basicrt.TextureRef | basicrt.OperationRef:
+        """light(), or what varies."""
+        reference = self._varying_at(identifier)
+        return self.light(identifier) if reference is None else reference
+
     def radiance(
         self, color: str, strength: str
     ) -> tuple[

@@ -47,21 +47,21 @@ def _tangent(view: NodeView) -> str:
 
 def _stretch(view: NodeView, anisotropy: str, rotation: str, lowest: float) -> tuple[Any, ...]:
     """How much microfacets are stretched, their rotation, and along what; a round lobe needs no more."""
-    amount = view.number(anisotropy, lowest, 1)
+    amount = view.varying_number(anisotropy, lowest, 1)
     if amount == 0.0:
         return 0.0, 0.0, "uv"
-    return amount, view.number(rotation, -1e6), _tangent(view)
+    return amount, view.varying_number(rotation, -1e6), _tangent(view)
 
 
-def _thin_film(view: NodeView) -> dict[str, float]:
+def _thin_film(view: NodeView) -> dict[str, Any]:
     """The film's keywords, none where there is no film."""
     name = "Thin Film Thickness"
-    thickness = view.number(name) if _has(view, name) else 0.0
-    if thickness <= 0.0:
+    thickness = view.varying_number(name) if _has(view, name) else 0.0
+    if thickness == 0.0:
         return {}
     return {
         "thin_film_thickness": thickness,
-        "thin_film_ior": view.number("Thin Film IOR", 1e-5),
+        "thin_film_ior": view.varying_number("Thin Film IOR", 1e-5),
     }
 
 
@@ -105,11 +105,11 @@ def metallic(view: NodeView) -> NodeIndex:
     if node.fresnel_type == "F82":
         look = {"base_color": view.color("Base Color"), "edge_tint": view.color("Edge Tint")}
     else:
-        look = {"ior": view.light("IOR"), "extinction": view.light("Extinction")}
+        look = {"ior": view.varying_light("IOR"), "extinction": view.varying_light("Extinction")}
     return view.add(
         basicrt.MetallicShader(
             model=node.fresnel_type.lower(),
-            roughness=view.number("Roughness", 0, 1),
+            roughness=view.share("Roughness"),
             distribution=_distribution(view),
             anisotropy=anisotropy,
             rotation=rotation,
@@ -135,7 +135,7 @@ def sheen(view: NodeView) -> NodeIndex:
     return view.add(
         basicrt.SheenShader(
             color=view.color("Color"),
-            roughness=view.number("Roughness", 0, 1),
+            roughness=view.share("Roughness"),
             model=node.distribution.lower(),
         )
     )
@@ -150,8 +150,8 @@ def toon(view: NodeView) -> NodeIndex:
         basicrt.ToonShader(
             color=view.color("Color"),
             component=node.component.lower(),
-            size=view.number("Size", 0, 1),
-            smooth=view.number("Smooth", 0, 1),
+            size=view.share("Size"),
+            smooth=view.share("Smooth"),
         )
     )
 
@@ -246,7 +246,7 @@ def principled(view: NodeView) -> NodeIndex:
             normal=view.normal(),
             # From 4.3 on.
             diffuse_roughness=(
-                view.number("Diffuse Roughness", 0, 1) if _has(view, "Diffuse Roughness") else 0.0
+                view.share("Diffuse Roughness") if _has(view, "Diffuse Roughness") else 0.0
             ),
             specular_tint=view.color("Specular Tint"),
             anisotropic=anisotropy,
@@ -261,26 +261,26 @@ def principled(view: NodeView) -> NodeIndex:
 
 def _sheen_layer(view: NodeView) -> dict[str, Any]:
     """The Principled BSDF's sheen, none where it has no weight."""
-    weight = view.number("Sheen Weight", 0, 1)
+    weight = view.share("Sheen Weight")
     if weight == 0.0:
         return {}
     return {
         "sheen_weight": weight,
-        "sheen_roughness": view.number("Sheen Roughness", 0, 1),
+        "sheen_roughness": view.share("Sheen Roughness"),
         "sheen_tint": view.color("Sheen Tint"),
     }
 
 
 def _coat_layer(view: NodeView) -> dict[str, Any]:
     """The Principled BSDF's coat, none where it has no weight."""
-    weight = view.number("Coat Weight", 0, 1)
+    weight = view.share("Coat Weight")
     if weight == 0.0:
         return {}
     view.ignore(Coat_Normal=None)
     return {
         "coat_weight": weight,
-        "coat_roughness": view.number("Coat Roughness", 0, 1),
-        "coat_ior": max(view.number("Coat IOR"), 1.0),
+        "coat_roughness": view.share("Coat Roughness"),
+        "coat_ior": view.varying_number("Coat IOR", 1.0),
         "coat_tint": view.color("Coat Tint"),
     }
 

@@ -359,9 +359,9 @@ def test_colour_becomes_a_number_by_luminance() -> None:
 def test_unsupported_texture_leaves_the_sockets_own_value() -> None:
     def link(tree: Any, socket: Any) -> None:
         socket.default_value = (*COLOR, 1)
-        tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs["Color"], socket)
+        tree.links.new(tree.nodes.new("ShaderNodeTexPointDensity").outputs["Color"], socket)
 
-    warning = 'node "Diffuse BSDF": Color is linked to "Noise Texture", which is not supported: its own value is used'
+    warning = 'node "Diffuse BSDF": Color is linked to "Point Density", which is not supported: its own value is used'
     assert only_node(diffuse_with(link), warning).color == COLOR
 
 
@@ -486,10 +486,10 @@ def test_coat_normals_are_reported() -> None:
     only_node(material, 'node "Principled BSDF": Coat Normal is not supported and left out')
 
 
-def test_normal_maps_are_reported() -> None:
+def test_a_normal_that_cannot_be_had_is_reported() -> None:
     material, tree, output = empty_material()
     diffuse = add_node(tree, "ShaderNodeBsdfDiffuse", Color=COLOR)
-    tree.links.new(tree.nodes.new("ShaderNodeBump").outputs[0], diffuse.inputs["Normal"])
+    tree.links.new(tree.nodes.new("ShaderNodeBevel").outputs[0], diffuse.inputs["Normal"])
     tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
     only_node(material, 'node "Diffuse BSDF": Normal is not supported and left out')
 

@@ -150,15 +150,15 @@ def test_other_projections_are_reported() -> None:
     only_texture(material, 'node "Image Texture": projection BOX is not supported: drawn flat')
 
 
-def test_other_coordinates_are_reported() -> None:
+def test_images_over_other_coordinates_are_operations() -> None:
     material, texture = textured_material(new_image(RAMP))
     tree = material.node_tree
     coordinates = tree.nodes.new("ShaderNodeTexCoord")
     tree.links.new(coordinates.outputs["Object"], texture.inputs["Vector"])
-    only_texture(
-        material,
-        'node "Image Texture": Object coordinates are not supported: the UV map is used',
-    )
+    translated, _scene = translate(material)
+    kinds = [type(operation) for operation in translated.operations]
+    assert kinds == [basicrt.SurfaceOperation, basicrt.TextureOperation]
+    assert translated.operations[0].value == "object_position"
 
 
 # ---- where they may be ---------------------------------------------------------------------------
@@ -222,12 +222,10 @@ def test_a_uv_map_that_is_not_exported_is_reported_for_its_objects() -> None:
     )
 
 
-def test_numbers_do_not_take_images_yet() -> None:
+def test_numbers_take_images() -> None:
     material, _ = textured_material(new_image(RAMP), "ShaderNodeBsdfAnisotropic", "Roughness")
-    translate(
-        material,
-        'node "Glossy BSDF": Roughness is linked to "Image Texture", which is not supported: its own value is used',
-    )
+    translated, _scene = translate(material)
+    assert translated.nodes[0].roughness == basicrt.TextureRef(0)
 
 
 # ---- as in Cycles --------------------------------------------------------------------------------

@@ -38,6 +38,7 @@ CLASSES = [
     basicrt.SpotLight,
     basicrt.SunLight,
     basicrt.TransparentShader,
+    *(bound for name, bound in vars(basicrt).items() if name.endswith("Operation")),
 ]
 
 

@@ -26,6 +26,8 @@ struct Range {
   double maximum = std::numeric_limits<double>::infinity();
   bool is_minimum_excluded = false;
   bool may_be_infinite = false;
+
+  constexpr bool operator==(const Range&) const = default;
 };
 
 constexpr Range at_least(double minimum) { return {.minimum = minimum}; }

@@ -61,11 +61,12 @@ void flatten(const MetallicShader& node, const Target& target, float weight) {
     add_metal(target, microfacets, fresnel, mean, node.distribution, Color(weight));
   };
   if (node.model == MetalModel::physical_conductor) {
-    const ConductorFresnel fresnel{node.ior, node.extinction};
+    const Color ior = node.ior.constant, extinction = node.extinction.constant;
+    const ConductorFresnel fresnel{ior, extinction};
     if (film.is_none())
       add(fresnel, fresnel.mean());
     else
-      add(make_film_on_conductor(film, node.ior, node.extinction), fresnel.mean());
+      add(make_film_on_conductor(film, ior, extinction), fresnel.mean());
     return;
   }
   const F82Fresnel fresnel = make_f82(node.base_color.constant, node.edge_tint.constant);
@@ -116,7 +117,7 @@ void flatten(const ToonShader& node, const Target& target, float weight) {
 
 void flatten(const GlassShader& node, const Target& target, float weight) {
   if (const ThinFilm film(node.thin_film_thickness,
-                          target.is_back ? node.thin_film_ior / node.ior : node.thin_film_ior);
+                          target.is_back ? node.thin_film_ior / node.ior : node.thin_film_ior.constant);
       !film.is_none()) {
     FilmDielectric lobe{.eta = target.relative_ior(node.ior), .alpha = node.roughness * node.roughness, .film = film};
     lobe.f0_tint = lobe.transmit_tint = PackedColor<1>(Color(1.0f));

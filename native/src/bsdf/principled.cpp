@@ -79,7 +79,7 @@ class Principled {
       FilmDielectric lobe{.eta = eta,
                           .alpha = node_.roughness * node_.roughness,
                           .film = ThinFilm(node_.thin_film_thickness,
-                                           target_.is_back ? node_.thin_film_ior / node_.ior : node_.thin_film_ior)};
+                                           target_.is_back ? node_.thin_film_ior / node_.ior : node_.thin_film_ior.constant)};
       lobe.f0_tint = PackedColor<1>(tint);
       lobe.transmit_tint = PackedColor<1>(color);
       add_film_glass(target_, lobe, node_.roughness, node_.distribution, color, weight);

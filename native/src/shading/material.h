@@ -42,6 +42,10 @@ inline constexpr std::string_view tangent_doc =
 inline constexpr std::string_view rotation_doc = "of that about the normal, in whole turns";
 inline constexpr std::string_view film_thickness_doc = "of a thin film on it, nanometres; 0 is none";
 
+[[nodiscard]] inline bool may_differ_from_zero(const NumberInput& input) {
+  return input.is_varying() || input.constant != 0;
+}
+
 struct DiffuseShader {
   ColorInput color;
   bool is_two_sided = false;
@@ -63,11 +67,11 @@ struct GlossyShader {
   ColorInput color;
   NumberInput roughness = 0.5f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
-  float anisotropy = 0, rotation = 0;
+  NumberInput anisotropy = 0.0f, rotation = 0.0f;
   TangentKind tangent = TangentKind::uv;
   ColorInput normal{Vec3f(0.0f)};
 
-  [[nodiscard]] bool is_stretched() const { return anisotropy != 0; }
+  [[nodiscard]] bool is_stretched() const { return may_differ_from_zero(anisotropy); }
   static constexpr std::string_view kind = "glossy";
   static constexpr auto fields() {
     return std::tuple{
@@ -111,14 +115,14 @@ inline constexpr std::array enum_names<MetalModel> = std::to_array<std::string_v
 struct MetallicShader {
   MetalModel model = MetalModel::f82;
   ColorInput base_color{Color{0.617f, 0.577f, 0.54f}}, edge_tint{Color{0.695f, 0.726f, 0.77f}};
-  Color ior{2.757f, 2.513f, 2.231f}, extinction{3.867f, 3.404f, 3.009f};
-  float roughness = 0.5f;
+  ColorInput ior{Vec3f(2.757f, 2.513f, 2.231f)}, extinction{Vec3f(3.867f, 3.404f, 3.009f)};
+  NumberInput roughness = 0.5f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
-  float anisotropy = 0, rotation = 0;
+  NumberInput anisotropy = 0.0f, rotation = 0.0f;
   TangentKind tangent = TangentKind::uv;
-  float thin_film_thickness = 0, thin_film_ior = 1.33f;
+  NumberInput thin_film_thickness = 0.0f, thin_film_ior = 1.33f;
 
-  [[nodiscard]] bool is_stretched() const { return anisotropy != 0; }
+  [[nodiscard]] bool is_stretched() const { return may_differ_from_zero(anisotropy); }
   static constexpr std::string_view kind = "metallic";
   static constexpr auto fields() {
     using M = MetallicShader;
@@ -166,7 +170,7 @@ struct GlassShader {
   NumberInput ior = 1.5f;
   NumberInput roughness = 0.0f;
   FacetDistribution distribution = FacetDistribution::multi_ggx;
-  float thin_film_thickness = 0, thin_film_ior = 1.33f;
+  NumberInput thin_film_thickness = 0.0f, thin_film_ior = 1.33f;
   ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "glass";
   static constexpr auto fields() {
@@ -204,7 +208,7 @@ inline constexpr std::array enum_names<SheenModel> = std::to_array<std::string_v
 
 struct SheenShader {
   ColorInput color;
-  float roughness = 0.5f;
+  NumberInput roughness = 0.5f;
   SheenModel model = SheenModel::microfiber;
   static constexpr std::string_view kind = "sheen";
   static constexpr auto fields() {
@@ -222,7 +226,7 @@ inline constexpr std::array enum_names<ToonComponent> = std::to_array<std::strin
 struct ToonShader {
   ColorInput color;
   ToonComponent component = ToonComponent::diffuse;
-  float size = 0.5f, smooth = 0;
+  NumberInput size = 0.5f, smooth = 0.0f;
   static constexpr std::string_view kind = "toon";
   static constexpr auto fields() {
     return std::tuple{field("color", &ToonShader::color, "tint", within(0, 1)),
@@ -260,16 +264,16 @@ struct PrincipledShader {
   FacetDistribution distribution = FacetDistribution::multi_ggx;
   NumberInput diffuse_roughness = 0.0f;
   ColorInput specular_tint{Color(1.0f)};
-  float anisotropic = 0, anisotropic_rotation = 0;
+  NumberInput anisotropic = 0.0f, anisotropic_rotation = 0.0f;
   TangentKind tangent = TangentKind::uv;
   NumberInput sheen_weight = 0.0f, sheen_roughness = 0.5f;
   ColorInput sheen_tint{Color(1.0f)};
   NumberInput coat_weight = 0.0f, coat_roughness = 0.03f, coat_ior = 1.5f;
   ColorInput coat_tint{Color(1.0f)};
-  float thin_film_thickness = 0, thin_film_ior = 1.33f;
+  NumberInput thin_film_thickness = 0.0f, thin_film_ior = 1.33f;
   ColorInput normal{Vec3f(0.0f)};
 
-  [[nodiscard]] bool is_stretched() const { return anisotropic != 0; }
+  [[nodiscard]] bool is_stretched() const { return may_differ_from_zero(anisotropic); }
   static constexpr std::string_view kind = "principled";
   static constexpr auto fields() {
     return std::tuple{

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "io/described_json.h"
@@ -35,6 +37,21 @@ Json vector_schema(int size, const Range& range) {
   return {{"type", "array"}, {"items", range_schema("number", range)}, {"minItems", size}, {"maxItems", size}};
 }
 
+template <class Input>
+constexpr auto input_name =
+    std::same_as<Input, ColorInput> ? "#/$defs/vector_input" : "#/$defs/number_input";
+
+// A constant within a range, a texture or an operation.
+template <class Input>
+Json input_schema(const Range& range) {
+  const Json operation = {{"$ref", "#/$defs/operation_value"}};
+  if constexpr (std::same_as<Input, NumberInput>)
+    return {{"oneOf", {range_schema("number", range), {{"$ref", "#/$defs/texture_share"}}, operation}}};
+  else
+    return {{"oneOf",
+             {vector_schema(3, range), {{"description", "a texture's name"}, {"type", "string"}}, operation}}};
+}
+
 // What JSON a field of that type takes.
 template <class Value>
 Json value_schema(const Range& range) {
@@ -56,15 +73,8 @@ Json value_schema(const Range& range) {
     return {{"type", "array"}, {"items", {{"$ref", "#/$defs/transform"}}}};
   else if constexpr (std::same_as<Value, std::vector<float>>)
     return {{"type", "array"}, {"items", range_schema("number", range)}};
-  else if constexpr (std::same_as<Value, ColorInput>)
-    return {{"oneOf",
-             {vector_schema(3, range),
-              {{"description", "a texture's name"}, {"type", "string"}},
-              {{"$ref", "#/$defs/operation_value"}}}}};
-  else if constexpr (std::same_as<Value, NumberInput>)
-    return {
-        {"oneOf",
-         {range_schema("number", range), {{"$ref", "#/$defs/texture_share"}}, {{"$ref", "#/$defs/operation_value"}}}}};
+  else if constexpr (IsInput<Value>)
+    return range == Range{} ? Json{{"$ref", input_name<Value>}} : input_schema<Value>(range);
   else if constexpr (std::same_as<Value, std::string> || std::same_as<Value, Id<Texture>>)
     return {{"type", "string"}};
   else
@@ -140,6 +150,8 @@ Json expected_definitions() {
       [&]<class Kind>(const Kind&) { definitions[std::string(Kind::kind) + "_camera"] = definition_of<Kind>(); });
   for_each_kind<Sky>(
       [&]<class Kind>(const Kind&) { definitions[std::string(Kind::kind) + "_sky"] = definition_of<Kind>(); });
+  definitions["vector_input"] = input_schema<ColorInput>({});
+  definitions["number_input"] = input_schema<NumberInput>({});
   definitions["constant_texture"] = definition_of<ConstantTexture>();
   definitions["checkerboard_texture"] =
       definition_of<CheckerboardTexture>({{"tex_coordinate_generator", {{"$ref", "#/$defs/texture_generator"}}}});
@@ -162,9 +174,10 @@ Json expected_definitions() {
 
 TEST(SceneSchema, described_structs_stand_in_it_field_by_field) {
   const Json expected = expected_definitions();
+  if (const char* path = std::getenv("BASICRT_DEFINITIONS")) std::ofstream(path) << expected.dump();
   for (const auto& [name, definition] : expected.items()) {
-    ASSERT_TRUE(schema()["$defs"].contains(name)) << "add \"" << name << "\": " << definition.dump(2);
-    EXPECT_EQ(schema()["$defs"][name].dump(2), definition.dump(2)) << name;
+    ASSERT_TRUE(schema()["$defs"].contains(name)) << "no \"" << name << "\": run tools/update_schema.py";
+    EXPECT_EQ(schema()["$defs"][name].dump(2), definition.dump(2)) << name << ": run tools/update_schema.py";
   }
 }
 
