@@ -7,7 +7,10 @@ with the Python of a virtual environment that has Blender's module and BasicRT (
 
 from __future__ import annotations
 
+import contextlib
+import io
 import sys
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,11 +22,15 @@ STRUCTURE = ("Output", "Group", "Tree", "CustomGroup")
 # Nodes of other uses: lamps' and line styles' own, and those that only the background has.
 ELSEWHERE = {"ShaderNodeBackground", "ShaderNodeTexEnvironment", "ShaderNodeTexSky"}
 
+# Of a node's own properties, those that don't change what it computes.
+LABELS = {"label", "name", "bl_idname", "bl_label", "bl_icon", "bl_description", "location"}
+
 HEADER = """\
 # Shader nodes
 
-What the extension makes of each shader node of Blender {version} in a material, by translating one
-with its defaults. Written by `tools/node_table.py`; `tests/blender/test_node_table.py` holds it against the code.
+What the extension makes of each shader node of Blender {version} in a material: with its defaults, with each of its
+inputs linked, with each of its settings. `tools/node_table.py` writes this page by translating them, and
+`tests/blender/test_node_table.py` holds it against the code. In Blender the render properties list the same for a scene.
 Environment and sky textures are for the background of a world.
 
 | node | drawn | not as in Blender |
@@ -40,33 +47,63 @@ class Row:
     notes: tuple[str, ...]
 
 
-def translate_node(bl_idname: str, output: str) -> list[str]:
-    """The warnings of a material that shows one output of a node."""
-    import bpy
-    from addon.nodes import Textures, translate_surface
-    from addon.report import Report
+@dataclass
+class Trial:
+    """A material with one node, whose output it shows."""
 
-    import basicrt
+    material: Any
+    tree: Any
+    node: Any
 
-    material = bpy.data.materials.new("Material")
-    try:
+    @classmethod
+    def of(cls, bl_idname: str) -> Trial:
+        """The node with its defaults, and an image where it wants one."""
+        import bpy
+
+        material: Any = bpy.data.materials.new("Material")
         material.use_nodes = True
-        tree: Any = material.node_tree
-        tree.nodes.clear()
-        node = tree.nodes.new(bl_idname)
-        socket = next(s for s in node.outputs if s.identifier == output)
-        target = tree.nodes.new("ShaderNodeOutputMaterial").inputs
-        place = target["Volume" if is_volume(bl_idname) else "Surface"]
+        material.node_tree.nodes.clear()
+        node = material.node_tree.nodes.new(bl_idname)
+        if "image" in node.bl_rna.properties:
+            node.image = bpy.data.images.new("Image", 2, 2)
+        return cls(material, material.node_tree, node)
+
+    def show(self, output: str) -> None:
+        """Link an output to where it is seen."""
+        socket = next(s for s in self.node.outputs if s.identifier == output)
+        target = self.tree.nodes.new("ShaderNodeOutputMaterial").inputs
+        place = target["Volume" if is_volume(self.node.bl_idname) else "Surface"]
         if socket.type != "SHADER":
-            emission = tree.nodes.new("ShaderNodeEmission")
-            tree.links.new(emission.outputs[0], place)
+            emission = self.tree.nodes.new("ShaderNodeEmission")
+            self.tree.links.new(emission.outputs[0], place)
             place = emission.inputs["Color"]
-        tree.links.new(socket, place)
+        self.tree.links.new(socket, place)
+
+    def vary(self, identifier: str) -> None:
+        """Link an input to something that varies, of its type."""
+        socket = next(s for s in self.node.inputs if s.identifier == identifier)
+        if socket.type == "SHADER":
+            source = self.tree.nodes.new("ShaderNodeBsdfDiffuse").outputs[0]
+        elif socket.type == "VECTOR":
+            source = self.tree.nodes.new("ShaderNodeNewGeometry").outputs["Position"]
+        else:
+            noise = self.tree.nodes.new("ShaderNodeTexNoise")
+            source = noise.outputs["Color" if socket.type == "RGBA" else 0]
+        self.tree.links.new(source, socket)
+
+    def warnings(self) -> list[str]:
+        """What the user is told, without the material's name; takes the material away."""
+        import bpy
+        from addon.nodes import Textures, translate_surface
+        from addon.report import Report
+
+        import basicrt
+
         report = Report()
-        translate_surface(material, report, Textures(basicrt.Scene()))
+        with contextlib.redirect_stdout(io.StringIO()):
+            translate_surface(self.material, report, Textures(basicrt.Scene()))
+        bpy.data.materials.remove(self.material)
         return [text.split(": ", 1)[1] for text in report.warnings]
-    finally:
-        bpy.data.materials.remove(material)
 
 
 def is_volume(bl_idname: str) -> bool:
@@ -74,19 +111,66 @@ def is_volume(bl_idname: str) -> bool:
     return "Volume" in bl_idname and bl_idname != "ShaderNodeVolumeInfo"
 
 
-def row_of(bl_idname: str, name: str, outputs: list[tuple[str, str]]) -> Row:
+def is_missing(warnings: list[str]) -> bool:
+    """Whether an output could not be had at all."""
+    return any("own value is used" in text or "as diffuse grey" in text for text in warnings)
+
+
+def settings_of(node: Any) -> Iterator[tuple[str, Any]]:
+    """Each value of each of a node's settings but those that it has."""
+    import bpy
+
+    inherited = set(bpy.types.ShaderNode.bl_rna.properties.keys()) | LABELS
+    for name, made in node.bl_rna.properties.items():
+        if name in inherited or made.is_readonly:
+            continue
+        if made.type == "ENUM":
+            values = [item.identifier for item in made.enum_items]
+        elif made.type == "BOOLEAN":
+            values = [not made.default]
+        else:
+            continue
+        default = getattr(node, name)
+        for value in values:
+            with contextlib.suppress(TypeError):  # the list of values depends on the node
+                setattr(node, name, value)
+                if value != default:
+                    yield name, value
+        setattr(node, name, default)
+
+
+def row_of(bl_idname: str, name: str) -> Row:
     """What becomes of one node."""
-    told = {label: translate_node(bl_idname, identifier) for identifier, label in outputs}
-    missing = [label for label, notes in told.items() if any("own value" in n for n in notes)]
-    notes = {n.split(": ", 1)[-1] for notes in told.values() for n in notes if "own value" not in n}
-    if outputs and len(missing) == len(outputs):
+
+    def tried(change: Callable[[Trial], None], output: str | None = None) -> list[str]:
+        trial = Trial.of(bl_idname)
+        change(trial)
+        enabled = [s.identifier for s in trial.node.outputs if s.enabled]
+        trial.show(output if output in enabled else enabled[0])
+        return trial.warnings()
+
+    trial = Trial.of(bl_idname)
+    outputs = {s.identifier: s.name for s in trial.node.outputs if s.enabled}
+    inputs = [s.identifier for s in trial.node.inputs if s.enabled and s.name]
+    settings = list(settings_of(trial.node))
+    trial.warnings()
+    told = {label: tried(lambda _: None, identifier) for identifier, label in outputs.items()}
+    missing = [label for label, warnings in told.items() if is_missing(warnings)]
+    if len(missing) == len(outputs):
         return Row(name, "no", ())
-    said = sorted(notes)
+    shown = next(identifier for identifier, label in outputs.items() if label not in missing)
+    notes = {text for label, texts in told.items() if label not in missing for text in texts}
+    for identifier in inputs:
+        warnings = tried(lambda trial, i=identifier: trial.vary(i), shown)
+        notes.update([f"{identifier} does not vary"] if is_missing(warnings) else warnings)
+    for setting, value in settings:
+        warnings = tried(lambda trial, s=setting, v=value: setattr(trial.node, s, v), shown)
+        notes.update([f"{setting} {value} is left out"] if is_missing(warnings) else warnings)
+    said = sorted({note.split('": ', 1)[-1] for note in notes})
     if missing:
         said.insert(0, "without " + ", ".join(missing))
-    if any("drawn as" in note for note in notes):
-        return Row(name, "as another", tuple(said))
-    return Row(name, "in part" if said else "yes", tuple(said))
+    is_another = any("drawn as" in text for texts in told.values() for text in texts)
+    return Row(name, "as another" if is_another else "in part" if said else "yes", tuple(said))
 
 
 def rows() -> list[Row]:
@@ -102,8 +186,8 @@ def rows() -> list[Row]:
             node = tree.nodes.new(bl_idname)
         except RuntimeError:  # a base class, or a node of another kind of tree
             continue
-        outputs = [(s.identifier, s.name) for s in node.outputs if s.enabled]
-        found.append(row_of(bl_idname, node.bl_rna.name, outputs))
+        if any(socket.enabled for socket in node.outputs):
+            found.append(row_of(bl_idname, node.bl_rna.name))
     bpy.data.node_groups.remove(tree)
     return sorted(found, key=lambda row: row.name)
 

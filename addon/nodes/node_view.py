@@ -16,7 +16,7 @@ from .. import compat
 from ..report import Report
 from .graph import Groups, Place, find_socket, trace
 from .images import Textures
-from .operations import OPERATIONS, Value, as_vector, output_value, value_at
+from .operations import OPERATIONS, Value, as_vector, finite, output_value, value_at
 from .operations import as_number as number_of
 
 Color = tuple[float, float, float]
@@ -313,8 +313,8 @@ def _raw_value(socket: Any) -> float | Color:
     """A socket's default_value; a colour without its alpha."""
     raw = socket.default_value
     if isinstance(raw, (int, float)):
-        return float(raw)
-    return float(raw[0]), float(raw[1]), float(raw[2])
+        return finite(raw)
+    return finite(raw[0]), finite(raw[1]), finite(raw[2])
 
 
 def as_number(value: float | Color) -> float:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -115,9 +116,14 @@ def output_value(translation: Translation, source: Place) -> Value | None:
 def _own_value(socket: Any) -> Value:
     raw = getattr(socket, "default_value", 0.0)
     if isinstance(raw, (bool, int, float)):
-        return Value("number", float(raw))
+        return Value("number", finite(raw))
     kind = _KINDS.get(socket.type, "vector")
-    return Value(kind, (float(raw[0]), float(raw[1]), float(raw[2])))
+    return Value(kind, (finite(raw[0]), finite(raw[1]), finite(raw[2])))
+
+
+def finite(number: float) -> float:
+    """The number, 0 where it is none: constants that Blender computed may be infinite or NaN."""
+    return float(number) if math.isfinite(number) else 0.0
 
 
 def as_number(translation: Translation, value: Value) -> Number:

@@ -5,7 +5,7 @@
 
 with a Python that has Blender's module of version 4.2 (`pip install bpy==4.2.*`): files of a newer Blender do
 not open in 4.2. Each scene is a module here with a function `build()`; `stage.py` holds what they share. With
-a folder of your own, of any version, and of the scenes in `families.py` too.
+a folder of your own, of any version, and of the scenes in `families.py` and `graphs.py` too.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def register_addon() -> object:
 
 def build(name: str, scene: bpy.types.Scene) -> None:
     """Fill an empty scene."""
-    families = importlib.import_module("families").SCENES
+    families = importlib.import_module("graphs").SCENES
     (families[name] if name in families else importlib.import_module(name).build)(scene)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether both engines mean the same picture, over the scenes of scenes/blender/families.py.
+"""Whether both engines mean the same picture, over the scenes of scenes/blender/families.py and graphs.py.
 
 Each engine renders each scene with several seeds. A block of 16 x 16 pixels gives a Welch z score of the engines' means
 over the seeds: over all blocks these must scatter like a normal distribution. `BASICRT_BIAS_SCALE=4` makes the pictures
@@ -35,7 +35,7 @@ def families() -> dict[str, Any]:
     """The functions that build the scenes."""
     sys.path.insert(0, str(SCENES))
     try:
-        return dict(importlib.import_module("families").SCENES)
+        return dict(importlib.import_module("graphs").SCENES)
     finally:
         sys.path.remove(str(SCENES))
 

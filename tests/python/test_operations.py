@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Materials with operations, made in Python and read from files, without Blender."""
 
+import contextlib
 from typing import Any
 
 import numpy as np
@@ -13,37 +14,38 @@ OPERATIONS = [made for name, made in vars(basicrt).items() if name.endswith("Ope
 SIZE = 16
 
 
-def inputs(operation: Any) -> list[str]:
-    """The names of the fields that take what another operation gives."""
-    names = []
-    for name, value in vars(type(operation)).items():
-        if not isinstance(value, property):
-            continue
-        try:
-            setattr(operation, name, OperationRef(0))
-        except (TypeError, ValueError):
-            continue
-        names.append(name)
-    return names
+def fed(made: type, source: OperationRef) -> Any:
+    """An operation with another one's value in each field that takes one."""
+    operation = made()
+    for name, value in vars(made).items():
+        if isinstance(value, property):
+            with contextlib.suppress(TypeError, ValueError):
+                setattr(operation, name, source)
+    if isinstance(operation, basicrt.TextureOperation):
+        operation.texture = 0
+    return operation
 
 
 def scene_with(material: basicrt.Material) -> basicrt.Scene:
     """A square from (0, 0) to (1, 1) that fills the picture, seen from above."""
     scene = basicrt.Scene()
+    scene.textures.append(basicrt.CheckerboardTexture())
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
     square = scene.shapes.append(basicrt.Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]])))
     scene.instances.append(basicrt.Instance(square, materials=[scene.materials.append(material)]))
     pose = np.eye(4)
     pose[:3, 3] = (0.5, 0.5, 1)
-    scene.camera = basicrt.OrthographicCamera(transform=pose, scale=(1, 1))
-    scene.settings = basicrt.RenderSettings(width=SIZE, height=SIZE, samples=1, filter="box")
+    scene.camera = basicrt.OrthographicCamera(
+        transform=pose, window_min=(-0.5, -0.5), window_max=(0.5, 0.5)
+    )
+    scene.settings = basicrt.RenderSettings(width=SIZE, height=SIZE, samples=1)
     return scene
 
 
 def shown(material: basicrt.Material, value: OperationRef) -> np.ndarray:
     """The picture of a value, red, green and blue."""
     material.surface = material.add(basicrt.EmissionShader(radiance=value))
-    return np.asarray(basicrt.render(scene_with(material)).passes["Combined"])[..., :3]
+    return np.asarray(basicrt.render(scene_with(material))["Combined"])[..., :3]
 
 
 def test_a_graph_shows_what_it_computes() -> None:
@@ -63,10 +65,7 @@ def test_a_graph_shows_what_it_computes() -> None:
 def test_every_operation_survives_a_file(made: type, tmp_path) -> None:
     material = basicrt.Material(name="graph")
     first = material.add_operation(basicrt.SurfaceOperation(value="position"))
-    operation = made()
-    for name in inputs(operation):
-        setattr(operation, name, first)
-    last = material.add_operation(operation)
+    last = material.add_operation(fed(made, first))
     material.surface = material.add(basicrt.DiffuseShader(color=last))
     path = tmp_path / "scene.json"
     path.write_text(scene_with(material).to_json())
@@ -81,10 +80,7 @@ def test_every_operation_survives_a_file(made: type, tmp_path) -> None:
 def test_every_operation_runs(made: type) -> None:
     material = basicrt.Material()
     first = material.add_operation(basicrt.SurfaceOperation(value="position"))
-    operation = made()
-    for name in inputs(operation):
-        setattr(operation, name, first)
-    assert np.isfinite(shown(material, material.add_operation(operation))).all()
+    assert np.isfinite(shown(material, material.add_operation(fed(made, first)))).all()
 
 
 def test_operations_refer_only_to_those_before_them() -> None:

@@ -221,6 +221,8 @@ struct SurfaceShading {
 [[nodiscard]] Color transparency(const Material& material, const Table<Texture>& textures, const SurfacePoint& point,
                                  Vec3f wo, const ShadingContext& context = {});
 [[nodiscard]] bool is_transparent(const Material& material);  // may transparency() be anything but black
+// The same material with only what transparency() looks at.
+[[nodiscard]] Material transparent_part(Material material);
 
 // Whether shade() looks at the point's dpdu and so on: add_derivatives() first.
 [[nodiscard]] bool needs_derivatives(const Material& material);

@@ -35,6 +35,30 @@ bool is_transparent(const Material& material) {
   return result;
 }
 
+Material transparent_part(Material material) {
+  std::vector<bool> lets_through(material.nodes.size());
+  const auto any = [&](NodeIndex first, NodeIndex second) {
+    return (first != no_node && lets_through[first]) || (second != no_node && lets_through[second]);
+  };
+  const Overloaded may_let_through{
+      [](const TransparentShader&) { return true; },
+      [](const PrincipledShader& node) { return node.alpha.is_varying() || node.alpha.constant < 1; },
+      [&](const MixShader& node) { return any(node.first, node.second); },
+      [&](const AddShader& node) { return any(node.first, node.second); }, [](const auto& /*opaque*/) { return false; }};
+  for (std::size_t i = 0; i < material.nodes.size(); ++i) {
+    ShaderNode& node = material.nodes[i];
+    lets_through[i] = std::visit(may_let_through, node);
+    if (!lets_through[i]) {
+      node = HoldoutShader{};
+    } else if (const auto* principled = std::get_if<PrincipledShader>(&node)) {
+      PrincipledShader only_alpha;
+      only_alpha.alpha = principled->alpha;
+      node = only_alpha;
+    }
+  }
+  return material;
+}
+
 bool needs_derivatives(const Material& material) {
   bool result = false;
   const auto leaf = [&]<class Node>(const Node& node, float) {

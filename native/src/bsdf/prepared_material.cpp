@@ -21,6 +21,7 @@ std::optional<SurfaceShading> uniform_shading(const Material& material, const Ta
 
 PreparedMaterial::PreparedMaterial(Material the_material, const Table<Texture>& textures)
     : material(compile(std::move(the_material), textures)),
+      transparent(compile(transparent_part(material), textures)),
       front(uniform_shading(material, textures, {0, 0, 1})),
       back(uniform_shading(material, textures, {0, 0, -1})),
       is_boundary(material.volume != no_node && material.surface == no_node) {

@@ -11,6 +11,7 @@ namespace basicrt {
 
 struct PreparedMaterial {
   Material material;                          // compiled
+  Material transparent;                       // its transparent_part(), compiled
   std::optional<SurfaceShading> front, back;  // of each side that is uniform
   std::optional<Medium> medium;               // what its volume is
   bool is_boundary = false;                   // it has a volume and no surface: light passes straight through

@@ -93,7 +93,7 @@ class SurfacePoints {
 
 [[nodiscard]] inline Color transparency_at(const PreparedScene& scene, const SurfacePoint& point, Vec3f wo,
                                            const ShadingContext& context) {
-  return transparency(scene.material_of(point).material, scene.textures, point, wo, context);
+  return transparency(scene.material_of(point).transparent, scene.textures, point, wo, context);
 }
 
 // Notes the passes of a camera ray's first hit.

@@ -91,5 +91,28 @@ TEST_F(PreparedMaterialTest, a_constant_texture_is_as_uniform_as_a_colour_and_ot
   EXPECT_FALSE(PreparedMaterial(make_material(GlassShader{}), textures_).front);
 }
 
+TEST(PreparedMaterial, shadow_rays_run_only_what_makes_it_transparent) {
+  Material material;
+  const OperationIndex place = material.add(SurfaceOperation{}), color = material.add(NoiseOperation{.vector = place}),
+                       alpha = material.add(ComponentOperation{.value = place});
+  PrincipledShader leaf;
+  leaf.base_color = color;
+  leaf.alpha = alpha;
+  DiffuseShader opaque;
+  opaque.color = color;
+  material.surface =
+      material.add(MixShader{.factor = 0.25f, .first = material.add(leaf), .second = material.add(opaque)});
+
+  const Table<Texture> textures;
+  const PreparedMaterial prepared(material, textures);
+  EXPECT_EQ(prepared.material.operations.size(), 3u);
+  EXPECT_EQ(prepared.transparent.operations.size(), 2u);
+  SurfacePoint point = tilted_point({0, 0});
+  point.position = {0.5f, 2, 3};
+  const Vec3f wo{0, 0, 1};
+  EXPECT_EQ(transparency(prepared.transparent, textures, point, wo), Color(0.375f));
+  EXPECT_EQ(transparency(material, textures, point, wo), Color(0.375f));
+}
+
 }  // namespace
 }  // namespace basicrt
