@@ -60,7 +60,6 @@ def white_noise(of: Operands, output: str) -> Value:
 @operation("ShaderNodeTexVoronoi")
 def voronoi(of: Operands, output: str) -> Value | None:
     """Cells around random points."""
-    of.view.warn("its cells are others than in Cycles")
     kinds = {"Color": "color", "Position": "vector"}
     dimensions = int(of.node.voronoi_dimensions[0])
     outputs = {"Color": "color", "Position": "position", "W": "w"}

@@ -26,7 +26,7 @@ struct PreparedScene {
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
     bool needs_derivatives = false;        // one of the materials does
     ObjectInfo info;
-    Bounds3f box;                          // of the shape, in object space, where they are needed
+    Bounds3f box;  // of the shape, in object space, where they are needed
     bool is_holdout = false;
     bool is_shadow_catcher = false;
     float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;

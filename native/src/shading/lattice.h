@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points of one to four dimensions, and hashes of them: Jenkins 2006, "lookup3", of the bits of up to four numbers.
+// Points of one to four dimensions, and hashes of them: Jenkins 2006, "lookup3", of the bits of up to four numbers, and
+// the PCG hashes of Jarzynski and Olano 2020, "Hash functions for GPU rendering", of whole ones.
 #pragma once
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 
@@ -44,6 +46,12 @@ template <int N>
 Lattice<N> scaled(Lattice<N> a, float scale) {
   for (float& number : a) number *= scale;
   return a;
+}
+
+// Of a number without fraction; what an int can't hold becomes the least int.
+[[nodiscard]] inline std::int32_t to_whole(float number) {
+  const bool fits = number >= -2147483648.0f && number < 2147483648.0f;
+  return fits ? static_cast<std::int32_t>(number) : std::numeric_limits<std::int32_t>::min();
 }
 
 [[nodiscard]] inline std::uint32_t hash_bits(std::span<const std::uint32_t> key) {
@@ -88,18 +96,58 @@ template <class... Numbers>
           hash_to_unit(p[3], p[2], p[1], p[0])};
 }
 
-// As many numbers in [0, 1] as the point has.
-[[nodiscard]] inline Lattice<1> hash_to_point(const Lattice<1>& p) { return {hash_to_unit(p[0])}; }
-[[nodiscard]] inline Lattice<2> hash_to_point(const Lattice<2>& p) {
-  return {hash_to_unit(p[0], p[1]), hash_to_unit(p[0], p[1], 1.0f)};
+// Each number of the key depends on all of them. Shifted with their sign, as Blender does.
+template <int N>
+[[nodiscard]] std::array<std::uint32_t, N> permuted_congruential(std::array<std::uint32_t, N> key) {
+  static_assert(N >= 2 && N <= 4);
+  constexpr std::uint32_t factor = 1664525u;
+  for (std::uint32_t& number : key) number = number * factor + 1013904223u;
+  const auto stir = [&] {
+    if constexpr (N == 2) {
+      key[0] += key[1] * factor;
+      key[1] += key[0] * factor;
+    } else {
+      key[0] += key[1] * key[N - 1];
+      key[1] += key[2] * key[0];
+      key[2] += key[0] * key[1];
+      if constexpr (N == 4) key[3] += key[1] * key[2];
+    }
+  };
+  stir();
+  for (std::uint32_t& number : key) number ^= static_cast<std::uint32_t>(static_cast<std::int32_t>(number) >> 16);
+  stir();
+  return key;
 }
-[[nodiscard]] inline Lattice<3> hash_to_point(const Lattice<3>& p) {
-  const Vec3f color = hash_to_color(p);
-  return {color.x, color.y, color.z};
+
+// As many numbers in [0, 1] as a cell's corner has, whose coordinates are whole.
+template <int N>
+[[nodiscard]] Lattice<N> hash_cell(const Lattice<N>& corner) {
+  if constexpr (N == 1) {
+    return {hash_to_unit(corner[0])};
+  } else {
+    std::array<std::uint32_t, N> key;
+    for (int i = 0; i < N; ++i) key[i] = static_cast<std::uint32_t>(to_whole(corner[i]));
+    Lattice<N> hash;
+    key = permuted_congruential<N>(key);
+    for (int i = 0; i < N; ++i) hash[i] = static_cast<float>(key[i] & 0x7fffffffu) * (1.0f / 2147483647.0f);
+    return hash;
+  }
 }
-[[nodiscard]] inline Lattice<4> hash_to_point(const Lattice<4>& p) {
-  return {hash_to_unit(p[0], p[1], p[2], p[3]), hash_to_unit(p[3], p[0], p[1], p[2]),
-          hash_to_unit(p[2], p[3], p[0], p[1]), hash_to_unit(p[1], p[2], p[3], p[0])};
+
+// Three numbers in [0, 1].
+template <int N>
+[[nodiscard]] Vec3f hash_cell_to_color(const Lattice<N>& corner) {
+  if constexpr (N == 1) {
+    return hash_to_color(corner);
+  } else {
+    const auto hash = [&] {
+      if constexpr (N == 2)
+        return hash_cell(Lattice<3>{corner[0], corner[1], 0});
+      else
+        return hash_cell(corner);
+    }();
+    return {hash[0], hash[1], hash[2]};
+  }
 }
 
 // Calls function(std::integral_constant<int, N>) for N of 1 to 4.

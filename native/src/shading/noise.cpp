@@ -32,7 +32,7 @@ float perlin(const Lattice<N>& p) {
   Lattice<N> inside, weight;
   for (int i = 0; i < N; ++i) {
     const float floor = std::floor(p[i]);
-    cell[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(floor));
+    cell[i] = static_cast<std::uint32_t>(to_whole(floor));
     inside[i] = p[i] - floor;
     weight[i] = fade(inside[i]);
   }

@@ -89,7 +89,7 @@ struct Cell {
   [[nodiscard]] Lattice<N> at(const Lattice<N>& offset) const { return corner + offset; }
   // Of the cell at that offset, from this one's corner.
   [[nodiscard]] Lattice<N> feature_point(const Lattice<N>& offset) const {
-    return offset + scaled<N>(hash_to_point(at(offset)), randomness);
+    return offset + scaled<N>(hash_cell(at(offset)), randomness);
   }
 };
 
@@ -112,7 +112,7 @@ CellSample<N> nearest(const Lattice<N>& p, const Settings& settings) {
     }
   });
   const Found& found = settings.feature == VoronoiFeature::f2 ? second : first;
-  return {found.distance, hash_to_color(cell.at(found.offset)), cell.corner + found.point};
+  return {found.distance, hash_cell_to_color(cell.at(found.offset)), cell.corner + found.point};
 }
 
 template <int N>
@@ -130,7 +130,7 @@ CellSample<N> nearest_smoothly(const Lattice<N>& p, const Settings& settings) {
     float correction = width * share * (1 - share);
     sum.distance = lerp(sum.distance, away, share) - correction;
     correction /= 1 + 3 * width;
-    sum.color = lerp(sum.color, hash_to_color(cell.at(offset)), share) - Color(correction);
+    sum.color = lerp(sum.color, hash_cell_to_color(cell.at(offset)), share) - Color(correction);
     for (int i = 0; i < N; ++i) sum.position[i] = lerp(sum.position[i], point[i], share) - correction;
   });
   sum.position = cell.corner + sum.position;
@@ -197,8 +197,8 @@ struct Layers {
 template <int N>
 CellSample<N> layered_cells(const Lattice<N>& p, const Settings& settings, const Layers& layers) {
   const auto octave = [&](const Lattice<N>& place) {
-    return settings.feature == VoronoiFeature::smooth_f1 ? nearest_smoothly<N>(place, settings)
-                                                         : nearest<N>(place, settings);
+    const bool is_smooth = settings.feature == VoronoiFeature::smooth_f1 && settings.smoothness > 0;
+    return is_smooth ? nearest_smoothly<N>(place, settings) : nearest<N>(place, settings);
   };
   CellSample<N> sum;
   float amplitude = 1, most = 0, scale = 1;
