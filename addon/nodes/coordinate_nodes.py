@@ -9,6 +9,7 @@ import numpy as np
 
 import basicrt
 
+from .mesh_data import MeshData, Part, Source
 from .operations import Operands, Value, operation
 
 _COORDINATES = {
@@ -61,11 +62,26 @@ def surface(of: Operands, kind: str, value: str) -> Value:
     return of.add(kind, basicrt.SurfaceOperation(value=value))
 
 
+def mesh_data(of: Operands, kind: str, asked: MeshData, missing: float = 0.0) -> Value:
+    """Numbers of the mesh, `missing` where it has none such."""
+    of.view.translation.mesh_data.add(asked)
+    made = basicrt.AttributeOperation(name=asked.exported_name, missing=missing)
+    return of.add(kind, made)
+
+
+def _uv(of: Operands, name: str) -> Value:
+    """Of a UV map, the one that is active for rendering where the name is empty."""
+    if name:
+        return mesh_data(of, "vector", MeshData(Source.UV, name))
+    of.view.translation.mesh_data.add(MeshData(Source.UV, ""))
+    return surface(of, "vector", "uv")
+
+
 def texture_vector(of: Operands, default: str) -> Any:
     """The Vector of a texture node: unlinked it means the generated or the UV coordinates."""
     if of.is_linked("Vector"):
         return of.vector("Vector")
-    return surface(of, "vector", default).data
+    return _uv(of, "").data if default == "uv" else surface(of, "vector", default).data
 
 
 def _from_table(of: Operands, output: str, table: dict[str, tuple[str, str]]) -> Value | None:
@@ -81,17 +97,36 @@ def texture_coordinate(of: Operands, output: str) -> Value | None:
         place = surface(of, "vector", "position")
         matrix = np.array(of.node.object.matrix_world.inverted_safe(), np.float32)
         return of.add("vector", basicrt.TransformOperation(vector=place.data, transform=matrix))
-    return surface(of, "vector", _COORDINATES[output])
+    return _uv(of, "") if output == "UV" else surface(of, "vector", _COORDINATES[output])
 
 
 @operation("ShaderNodeUVMap")
 def uv_map(of: Operands, _output: str) -> Value | None:
-    """The UV map that is active for rendering."""
-    if of.node.from_instancer:
+    """A UV map by name."""
+    return None if of.node.from_instancer else _uv(of, of.node.uv_map)
+
+
+def _parts(of: Operands, source: Source, name: str, output: str) -> Value:
+    """An output of a node that reads an attribute."""
+    if output == "Fac":
+        return mesh_data(of, "number", MeshData(source, name, Part.MEAN))
+    if output == "Alpha":
+        return mesh_data(of, "number", MeshData(source, name, Part.ALPHA), missing=1.0)
+    return mesh_data(of, output.lower(), MeshData(source, name))
+
+
+@operation("ShaderNodeAttribute")
+def attribute(of: Operands, output: str) -> Value | None:
+    """An attribute of the mesh by name."""
+    if of.node.attribute_type != "GEOMETRY":
         return None
-    if of.node.uv_map:
-        of.view.translation.uv_maps.add(of.node.uv_map)
-    return surface(of, "vector", "uv")
+    return _parts(of, Source.ATTRIBUTE, of.node.attribute_name, output)
+
+
+@operation("ShaderNodeVertexColor")
+def color_attribute(of: Operands, output: str) -> Value:
+    """A colour of the mesh."""
+    return _parts(of, Source.COLOR, of.node.layer_name, output)
 
 
 @operation("ShaderNodeNewGeometry")
@@ -185,12 +220,15 @@ def normal_map(of: Operands, _output: str) -> Value | None:
     space = of.node.space.lower()
     if space not in ("tangent", "object", "world"):
         return None
-    if of.node.uv_map:
-        of.view.translation.uv_maps.add(of.node.uv_map)
+    tangents: dict[str, Any] = {}
+    if space == "tangent":
+        for part in (Part.TANGENT, Part.TANGENT_SIGN):
+            kind = "vector" if part == Part.TANGENT else "number"
+            tangents[part] = mesh_data(of, kind, MeshData(Source.UV, of.node.uv_map, part)).data
     return of.add(
         "vector",
         basicrt.NormalMapOperation(
-            color=of.vector("Color"), strength=of.number("Strength"), space=space
+            color=of.vector("Color"), strength=of.number("Strength"), space=space, **tangents
         ),
     )
 

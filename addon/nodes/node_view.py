@@ -16,6 +16,7 @@ from .. import compat
 from ..report import Report
 from .graph import Groups, Place, find_socket, trace
 from .images import Textures
+from .mesh_data import MeshData
 from .operations import OPERATIONS, Value, as_vector, output_value, value_at
 from .operations import as_number as number_of
 
@@ -73,8 +74,8 @@ class Translation:
     textures: Textures
     # A volume is the same everywhere: nothing in it may vary.
     is_volume: bool = False
-    # Names of the UV maps that textures ask for.
-    uv_maps: set[str] = field(default_factory=set)
+    # What it asks for of meshes.
+    mesh_data: set[MeshData] = field(default_factory=set)
     # Nodes that are done: one node may feed several others.
     done: dict[tuple[int, ...], NodeIndex] = field(default_factory=dict)
     # The same for the outputs of value nodes.
@@ -294,9 +295,9 @@ def is_over_uv(view: NodeView) -> bool:
         return True
     origin = NodeView(source.socket.node, source.groups, view.translation)  # type: ignore[arg-type]
     if origin.bl_idname == "ShaderNodeUVMap":
-        return True
+        return not origin.node.uv_map and not origin.node.from_instancer  # type: ignore[attr-defined]
     if origin.bl_idname == "ShaderNodeTexCoord":
-        return source.socket.identifier == "UV"
+        return source.socket.identifier == "UV" and not origin.node.from_instancer  # type: ignore[attr-defined]
     if origin.bl_idname != "ShaderNodeMapping" or origin.node.vector_type == "NORMAL":  # type: ignore[attr-defined]
         return False
     moves = (find_socket(origin.node.inputs, name) for name in ("Location", "Rotation", "Scale"))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 
@@ -67,8 +68,8 @@ def translate_surface(
         if place is not None:
             material.surface = translation.shader_at(place)
         fill(translation, tree)
-        if translation.uv_maps:
-            store.uv_maps[b_material.name] = translation.uv_maps
+        b_original: Any = b_material.original
+        store.mesh_data[b_original.session_uid] = frozenset(translation.mesh_data)
     return material
 
 

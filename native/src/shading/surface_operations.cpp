@@ -60,6 +60,43 @@ Vec3f interpolate(const MeshAttribute& attribute, const Mesh& mesh, const Surfac
   return value(0) * (1 - share.x - share.y) + value(1) * share.x + value(2) * share.y;
 }
 
+Vec3f normal_to_world(Vec3f normal, const Evaluator& in) {
+  if (!in.context.placement) return normalized(normal);
+  return normalized(Vec3f(in.context.placement->world_to_object.transposed_vector(Vec3d(normal))));
+}
+
+Vec3f normal_to_object(Vec3f normal, const Evaluator& in) {
+  if (!in.context.placement) return normal;
+  return normalized(Vec3f(in.context.placement->object_to_world.transposed_vector(Vec3d(normal))));
+}
+
+// In object space, of the length that interpolation leaves it: shorter between normals that differ.
+Vec3f interpolated_normal(const Evaluator& in) {
+  const SurfacePoint& point = in.point;
+  if (!in.context.mesh || in.context.mesh->corner_normals.empty()) return normal_to_object(point.geometric_normal, in);
+  const auto corner = [&](std::size_t i) {
+    return in.context.mesh->corner_normal_at(std::size_t{point.primitive} * 3 + i, point.time);
+  };
+  const Vec2f share = point.barycentrics;
+  return corner(0) * (1 - share.x - share.y) + corner(1) * share.x + corner(2) * share.y;
+}
+
+// Zero where there are no tangents.
+Vec3f from_tangents(Vec3f encoded, Vec3f tangent, float sign, const Evaluator& in) {
+  if (length_squared(tangent) == 0) return Vec3f(0.0f);
+  const Vec3f normal = interpolated_normal(in), across = cross(normal, tangent) * sign;
+  return normal_to_world(tangent * encoded.x + across * encoded.y + normal * encoded.z, in);
+}
+
+Vec3f from_uv_tangents(Vec3f encoded, const Evaluator& in) {
+  const auto& derivatives = in.point.derivatives;
+  if (!derivatives || length_squared(derivatives->dpdu) == 0) return Vec3f(0.0f);
+  const Vec3f own = in.point.shading_normal;
+  const Vec3f tangent = normalized(derivatives->dpdu - own * dot(own, derivatives->dpdu)), across = cross(own, tangent);
+  const float sign = dot(across, derivatives->dpdv) < 0 ? -1.0f : 1.0f;
+  return normalized(tangent * encoded.x + across * (sign * encoded.y) + own * encoded.z);
+}
+
 }  // namespace
 
 Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
@@ -87,9 +124,7 @@ Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
     case SurfaceValue::object_position:
       return object_position(in);
     case SurfaceValue::object_normal:
-      return context.placement
-                 ? normalized(Vec3f(context.placement->object_to_world.transposed_vector(Vec3d(viewed_normal(in)))))
-                 : viewed_normal(in);
+      return normal_to_object(viewed_normal(in), in);
     case SurfaceValue::camera_position:
       return camera_position(in);
     case SurfaceValue::reflection:
@@ -144,9 +179,9 @@ Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
 
 Vec3f eval(const AttributeOperation& node, const Evaluator& in) {
   const Mesh* mesh = in.context.mesh;
-  if (!mesh) return Vec3f(0.0f);
+  if (!mesh) return Vec3f(node.missing);
   const auto found = std::ranges::find(mesh->attributes, node.name, &MeshAttribute::name);
-  return found == mesh->attributes.end() ? Vec3f(0.0f) : interpolate(*found, *mesh, in.point);
+  return found == mesh->attributes.end() ? Vec3f(node.missing) : interpolate(*found, *mesh, in.point);
 }
 
 Vec3f eval(const FresnelOperation& node, const Evaluator& in) {
@@ -173,26 +208,24 @@ Vec3f eval(const FresnelOperation& node, const Evaluator& in) {
 
 Vec3f eval(const NormalMapOperation& node, const Evaluator& in) {
   const Vec3f encoded = in(node.color) * 2 - Vec3f(1.0f);
-  const float strength = std::max(in(node.strength), 0.0f);
-  const Vec3f own = in.point.shading_normal;
   Vec3f normal;
-  if (node.space == NormalMapSpace::tangent) {
-    const auto& derivatives = in.point.derivatives;
-    if (!derivatives || length_squared(derivatives->dpdu) == 0) return own * side(in);
-    const Vec3f tangent = normalized(derivatives->dpdu - own * dot(own, derivatives->dpdu));
-    const Vec3f across = cross(own, tangent);
-    const float hand = dot(across, derivatives->dpdv) < 0 ? -1.0f : 1.0f;
-    // Turned towards the surface's own normal before the vectors are added up.
-    normal = normalized(tangent * (encoded.x * strength) + across * (hand * encoded.y * strength) +
-                        own * lerp(1.0f, encoded.z, std::min(strength, 1.0f)));
-  } else {
-    normal = encoded;
-    if (node.space == NormalMapSpace::object && in.context.placement)
-      normal = Vec3f(in.context.placement->world_to_object.transposed_vector(Vec3d(encoded)));
-    normal = normalized(normal);
-    if (strength != 1) normal = normalized(own + (normal - own) * strength);
+  switch (node.space) {
+    case NormalMapSpace::tangent:
+      normal = node.tangent.is_varying() ? from_tangents(encoded, in(node.tangent), in(node.tangent_sign), in)
+                                         : from_uv_tangents(encoded, in);
+      break;
+    case NormalMapSpace::object:
+      normal = normal_to_world(encoded, in);
+      break;
+    case NormalMapSpace::world:
+      normal = normalized(encoded);
+      break;
   }
-  return (length_squared(normal) == 0 ? own : normal) * side(in);
+  const Vec3f own = viewed_normal(in);
+  if (length_squared(normal) == 0) return own;
+  const float strength = std::max(in(node.strength), 0.0f);
+  const Vec3f mixed = normalized(lerp(own, normal * side(in), strength));
+  return length_squared(mixed) == 0 ? own : mixed;
 }
 
 Vec3f bumped_normal(const BumpOperation& node, const Evaluator& in, const HeightChange& height) {

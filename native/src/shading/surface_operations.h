@@ -97,15 +97,17 @@ struct SurfaceOperation {
   }
 };
 
-// A named attribute of the mesh, interpolated; black where it has none of that name.
+// A named attribute of the mesh, interpolated.
 struct AttributeOperation {
   std::string name;
+  float missing = 0;
 
   bool operator==(const AttributeOperation&) const = default;
   static constexpr std::string_view kind = "attribute";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("name", &AttributeOperation::name, "of the mesh's attribute")};
+    return std::tuple{field("name", &AttributeOperation::name, "of the mesh's attribute"),
+                      field("missing", &AttributeOperation::missing, "where the mesh has none of that name")};
   }
 };
 
@@ -134,11 +136,13 @@ template <>
 inline constexpr std::array enum_names<NormalMapSpace> =
     std::to_array<std::string_view>({"tangent", "object", "world"});
 
-// A normal in world space from a colour; tangents are those of uv.
+// A normal in world space from a colour.
 struct NormalMapOperation {
   ColorInput color{Vec3f(0.5f, 0.5f, 1.0f)};
   NumberInput strength = 1.0f;
   NormalMapSpace space = NormalMapSpace::tangent;
+  ColorInput tangent{Vec3f(0.0f)};
+  NumberInput tangent_sign = 1.0f;
 
   bool operator==(const NormalMapOperation&) const = default;
   static constexpr std::string_view kind = "normal_map";
@@ -146,7 +150,11 @@ struct NormalMapOperation {
   static constexpr auto fields() {
     return std::tuple{field("color", &NormalMapOperation::color, "the normal, halved and moved by a half"),
                       field("strength", &NormalMapOperation::strength, "0 is the surface's own normal", at_least(0)),
-                      field("space", &NormalMapOperation::space, "tangent, object or world")};
+                      field("space", &NormalMapOperation::space, "tangent, object or world"),
+                      field("tangent", &NormalMapOperation::tangent,
+                            "an operation that gives the colour's x axis, object space; else it is that of uv"),
+                      field("tangent_sign", &NormalMapOperation::tangent_sign,
+                            "the y axis is so often the normal cross the tangent")};
   }
 };
 
@@ -187,7 +195,7 @@ struct HeightChange {
   return node.value == SurfaceValue::tangent;
 }
 [[nodiscard]] inline bool needs_derivatives(const NormalMapOperation& node) {
-  return node.space == NormalMapSpace::tangent;
+  return node.space == NormalMapSpace::tangent && !node.tangent.is_varying();
 }
 [[nodiscard]] inline bool needs_derivatives(const auto& /*others*/) { return false; }
 
