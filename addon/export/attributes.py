@@ -71,6 +71,8 @@ def _convert_one(
 ) -> Converted | None:
     if data.part in (Part.TANGENT, Part.TANGENT_SIGN):
         return _convert_tangents(b_mesh, triangles, data)
+    if data.part == Part.ISLAND:
+        return data.exported_name, "vertex", _island_numbers(triangles)
     b_attribute = _find(b_mesh, data)
     if b_attribute is None or b_attribute.data_type not in _MEMBERS:
         return None
@@ -132,6 +134,23 @@ def _faces(b_mesh: Any) -> Integers:
     faces = np.empty(len(b_mesh.loop_triangles), np.int32)
     b_mesh.loop_triangle_polygons.foreach_get("value", faces)
     return faces
+
+
+def _island_numbers(triangles: Triangles) -> Floats:
+    """(V, 3): a random number, thrice, for all vertices that triangles connect."""
+    islands = np.arange(len(triangles.positions))
+    first, *others = triangles.vertices.T
+    while True:
+        before = islands.copy()
+        for other in others:
+            least = np.minimum(islands[first], islands[other])
+            np.minimum.at(islands, first, least)
+            np.minimum.at(islands, other, least)
+        islands = islands[islands]
+        if np.array_equal(before, islands):
+            break
+    random = np.random.default_rng(0).random(len(islands), dtype=np.float32)
+    return np.repeat(random[islands][:, None], 3, axis=1)
 
 
 # ---- UV maps -------------------------------------------------------------------------------------

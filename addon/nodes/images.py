@@ -41,6 +41,12 @@ class Textures:
         # By a material's number: what it asks for of meshes.
         self.mesh_data: dict[int, frozenset[MeshData]] = {}
 
+    @property
+    def has_window(self) -> bool:
+        """Whether the camera's picture is flat: Window coordinates are known."""
+        flat = (basicrt.PerspectiveCamera, basicrt.OrthographicCamera)
+        return isinstance(self._scene.camera, flat)
+
     def image(
         self, b_image: bpy.types.Image | None, warn: Callable[[str], None]
     ) -> ConvertedImage | None:

@@ -23,6 +23,7 @@ class Part(StrEnum):
     ALPHA = "alpha"
     TANGENT = "tangent"  # of the UV map's first coordinate
     TANGENT_SIGN = "tangent_sign"  # -1 where the UV map is mirrored
+    ISLAND = "island"  # a random number for each connected piece
 
 
 @dataclass(frozen=True, order=True)

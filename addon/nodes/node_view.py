@@ -74,6 +74,8 @@ class Translation:
     textures: Textures
     # A volume is the same everywhere: nothing in it may vary.
     is_volume: bool = False
+    # What shaders have that nothing is linked to: zero is the surface's own, as it is.
+    normal: Color | basicrt.OperationRef = (0.0, 0.0, 0.0)
     # What it asks for of meshes.
     mesh_data: set[MeshData] = field(default_factory=set)
     # Nodes that are done: one node may feed several others.
@@ -171,14 +173,14 @@ class NodeView:
         return self.number(identifier, lowest, highest) if reference is None else reference
 
     def normal(self, identifier: str = "Normal") -> Color | basicrt.OperationRef:
-        """A normal in world space; zero where nothing is linked."""
+        """A normal in world space; zero is the surface's own."""
         socket = find_socket(self.node.inputs, identifier)
         if socket is None or not trace(Place(socket, self.groups)).socket.is_output:
-            return (0.0, 0.0, 0.0)
+            return self.translation.normal
         found: Any = self._varying_at(identifier)
         if found is None:
-            self.ignore(**{identifier: None})
-            return (0.0, 0.0, 0.0)
+            self.ignore(**{identifier.replace(" ", "_"): None})
+            return self.translation.normal
         return found
 
     def color(self, identifier: str) -> Color | basicrt.TextureRef | basicrt.OperationRef:
@@ -278,6 +280,9 @@ class NodeView:
         node: Any = source.socket.node
         if node.bl_idname in VALUES:
             return NodeView(node, source.groups, self.translation).output_value()
+        found = output_value(self.translation, source) if node.bl_idname in OPERATIONS else None
+        if found is not None and not isinstance(found.data, basicrt.OperationRef):
+            return found.data
         self.warn(
             f'{identifier} is linked to "{compat.node_name(node)}", which is not supported: its own value is used'
         )

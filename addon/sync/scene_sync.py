@@ -172,6 +172,7 @@ class _InstanceExport:
                 name=b_object.name,
                 visibility=self._visibility_of(b_instance, b_object),
                 color=b_object.color[:3],
+                alpha=b_object.color[3],
                 random=b_instance.random_id / 0xFFFFFFFF,
                 holdout=self._is_holdout(b_instance, b_object),
                 shadow_catcher=self._is_shadow_catcher(b_instance, b_object),

@@ -14,7 +14,7 @@ import basicrt
 from support.blender import add_camera, add_mesh, empty_material, export, new_image, new_scene, render_both
 
 SIZE = 24
-TOLERANCE = 1e-3
+TOLERANCE = 4e-3  # filters of 0.01 pixels, on steep random values
 
 
 def grid(material: Any, count: int = 3) -> Any:

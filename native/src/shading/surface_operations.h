@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "base/describe.h"
 #include "shading/inputs.h"
@@ -26,10 +27,12 @@ enum class SurfaceValue : std::uint8_t {
   object_position,
   object_normal,
   camera_position,
+  window,
   reflection,
   tangent,
   object_location,
   object_color,
+  object_alpha,
   object_index,
   object_random,
   material_index,
@@ -43,6 +46,7 @@ enum class SurfaceValue : std::uint8_t {
   is_transmission_ray,
   is_reflection_ray,
   is_volume_ray,
+  is_singular_ray,
   ray_length,
   ray_depth,
   diffuse_depth,
@@ -62,10 +66,12 @@ inline constexpr std::array enum_names<SurfaceValue> = std::to_array<std::string
                                                                                         "object_position",
                                                                                         "object_normal",
                                                                                         "camera_position",
+                                                                                        "window",
                                                                                         "reflection",
                                                                                         "tangent",
                                                                                         "object_location",
                                                                                         "object_color",
+                                                                                        "object_alpha",
                                                                                         "object_index",
                                                                                         "object_random",
                                                                                         "material_index",
@@ -79,6 +85,7 @@ inline constexpr std::array enum_names<SurfaceValue> = std::to_array<std::string
                                                                                         "is_transmission_ray",
                                                                                         "is_reflection_ray",
                                                                                         "is_volume_ray",
+                                                                                        "is_singular_ray",
                                                                                         "ray_length",
                                                                                         "ray_depth",
                                                                                         "diffuse_depth",
@@ -158,6 +165,32 @@ struct NormalMapOperation {
   }
 };
 
+// Along the surface, as near as can be to a direction that turns as the object's normals do.
+struct TangentOperation {
+  ColorInput direction{Vec3f(0.0f)};
+
+  bool operator==(const TangentOperation&) const = default;
+  static constexpr std::string_view kind = "tangent";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return std::tuple{field("direction", &TangentOperation::direction, "object space; zero gives zero")};
+  }
+};
+
+// 1 near the edges of the mesh's triangles, else 0.
+struct WireframeOperation {
+  NumberInput size = 0.01f;
+  bool is_in_pixels = false;
+
+  bool operator==(const WireframeOperation&) const = default;
+  static constexpr std::string_view kind = "wireframe";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return std::tuple{field("size", &WireframeOperation::size, "width of the edges, metres"),
+                      field("in_pixels", &WireframeOperation::is_in_pixels, "the size is in pixels")};
+  }
+};
+
 // The normal of the surface, in world space, were it raised by a height (Blinn 1978, "Simulation of wrinkled surfaces";
 // Mikkelsen 2010, "Bump mapping unparametrized surfaces on the GPU").
 struct BumpOperation {
@@ -165,6 +198,10 @@ struct BumpOperation {
   NumberInput strength = 1.0f, distance = 1.0f;
   ColorInput normal{Vec3f(0.0f)};
   bool is_inverted = false;
+  float filter_width = 1;
+  bool is_local = false;
+  // The operations that the height needs, in order: compile() finds them. None: all that come before.
+  std::vector<std::uint32_t> steps;
 
   bool operator==(const BumpOperation&) const = default;
   static constexpr std::string_view kind = "bump";
@@ -174,7 +211,10 @@ struct BumpOperation {
                       field("strength", &BumpOperation::strength, "0 is the normal as it was", at_least(0)),
                       field("distance", &BumpOperation::distance, "multiplies the height"),
                       field("normal", &BumpOperation::normal, "world space; zero is the surface's own"),
-                      field("invert", &BumpOperation::is_inverted, "bumps become dents")};
+                      field("invert", &BumpOperation::is_inverted, "bumps become dents"),
+                      field("filter_width", &BumpOperation::filter_width,
+                            "how far apart the height is looked at, in pixels", above(0)),
+                      field("local", &BumpOperation::is_local, "the distance is in object space")};
   }
 };
 
@@ -182,6 +222,8 @@ struct BumpOperation {
 [[nodiscard]] Vec3f eval(const AttributeOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const FresnelOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const NormalMapOperation& node, const Evaluator& in);
+[[nodiscard]] Vec3f eval(const TangentOperation& node, const Evaluator& in);
+[[nodiscard]] Vec3f eval(const WireframeOperation& node, const Evaluator& in);
 
 // How the height changes: its values here and at two points beside, which lie at dpdx and dpdy from here.
 struct HeightChange {
