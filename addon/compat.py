@@ -146,6 +146,16 @@ def is_portal(light: bpy.types.Light) -> bool:
     )
 
 
+def bump_filter_width() -> float:
+    """Pixels between a bump's heights: an input of Bump nodes from 4.3 on, before that a whole one."""
+    return 0.1 if bpy.app.version >= (4, 3, 0) else 1.0
+
+
+def is_green_down(node: bpy.types.Node) -> bool:
+    """Whether a Normal Map node takes green for down; a choice that 5.2 has."""
+    return bool(getattr(node, "convention", "OPENGL") == "DIRECTX")
+
+
 # What Blender called passes before 5.0.
 _OLD_PASS_NAMES = {
     "Object Index": "IndexOB",

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import basicrt
+
+from ..nodes import MeshData
+from . import attributes
 
 Floats = NDArray[np.float32]
 Integers = NDArray[np.int32]
@@ -63,7 +66,10 @@ def moment(b_mesh: bpy.types.Mesh, first: Topology) -> Moment | None:
 
 
 def deforming(still: basicrt.Mesh, moments: Sequence[Moment]) -> basicrt.Mesh | None:
-    """A mesh that goes through these moments, None where not all of them have normals or none has."""
+    """A mesh that goes through these moments, None where not all of them have normals or none has.
+
+    Its attributes, tangents among them, stay those of `still`.
+    """
     normals = [moment.corner_normals for moment in moments if moment.corner_normals is not None]
     if len(normals) not in (0, len(moments)):
         return None
@@ -74,39 +80,50 @@ def deforming(still: basicrt.Mesh, moments: Sequence[Moment]) -> basicrt.Mesh | 
         uvs=still.uvs,
         material_slots=still.material_slots,
         texture_space=still.texture_space,
+        attributes=still.attributes,
         motion_positions=np.stack([moment.positions for moment in moments[1:]]),
         motion_corner_normals=np.stack(normals[1:]) if normals else None,
     )
 
 
-def convert_object(b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> basicrt.Mesh | None:
+def convert_object(
+    b_object: bpy.types.Object, b_mesh: bpy.types.Mesh, asked: Iterable[MeshData] = ()
+) -> basicrt.Mesh | None:
     """convert() of an evaluated object's mesh, in edit mode too, where its arrays are empty."""
     if not b_mesh.is_editmode:
-        return convert(b_mesh)
+        return convert(b_mesh, asked)
     try:
-        return convert(b_object.to_mesh())
+        return convert(b_object.to_mesh(), asked)
     finally:
         b_object.to_mesh_clear()
 
 
-def convert(b_mesh: bpy.types.Mesh) -> basicrt.Mesh | None:
+def convert(b_mesh: bpy.types.Mesh, asked: Iterable[MeshData] = ()) -> basicrt.Mesh | None:
     """Triangulated copy of an evaluated mesh, None where it has no faces.
 
     positions (V, 3) float32, object space, metres; triangles (T, 3) int32; corner normals (T, 3, 3)
     float32, none where every face is flat; uvs (T, 3, 2) float32 of the layer that is active for
-    rendering; material slots (T,) int32. Holds no reference to `b_mesh`. Raises basicrt.SceneError
+    rendering; material slots (T,) int32; the attributes that are asked for. Holds no reference to `b_mesh`. Raises basicrt.SceneError
     for numbers that are not finite.
     """
     corners = _corners(b_mesh)
     if corners.size == 0:
         return None
-    return basicrt.Mesh(
-        _attribute(b_mesh, "position", "vector", 3),
-        _attribute(b_mesh, ".corner_vert", "value", 1)[corners].reshape(-1, 3),
+    triangles = attributes.Triangles(
+        positions=_attribute(b_mesh, "position", "vector", 3),
+        vertices=_attribute(b_mesh, ".corner_vert", "value", 1)[corners].reshape(-1, 3),
+        corners=corners,
         corner_normals=_corner_normals(b_mesh, corners),
-        uvs=_uvs(b_mesh, corners),
+    )
+    asked = frozenset(asked)
+    return basicrt.Mesh(
+        triangles.positions,
+        triangles.vertices,
+        corner_normals=triangles.corner_normals,
+        uvs=attributes.active_uvs(b_mesh, triangles, asked),
         material_slots=_material_slots(b_mesh),
         texture_space=_texture_space(b_mesh),
+        attributes=attributes.convert(b_mesh, triangles, asked),
     )
 
 
@@ -143,20 +160,6 @@ def _corner_normals(b_mesh: bpy.types.Mesh, corners: Integers) -> Floats | None:
         return None
     normals: Floats = _read(b_mesh.corner_normals, "vector", 3, np.float32)
     return normals[corners].reshape(-1, 3, 3)
-
-
-def active_uv_map(b_mesh: bpy.types.Mesh) -> str:
-    """The name of the UV map that is exported, "" for none."""
-    return next((layer.name for layer in b_mesh.uv_layers if layer.active_render), "")
-
-
-def _uvs(b_mesh: bpy.types.Mesh, corners: Integers) -> Floats | None:
-    """(T, 3, 2), or None for a mesh without uv layers."""
-    layer = next((layer for layer in b_mesh.uv_layers if layer.active_render), None)
-    if layer is None:
-        return None
-    uvs: Floats = _read(layer.uv, "vector", 2, np.float32)
-    return uvs[corners].reshape(-1, 3, 2)
 
 
 def _material_slots(b_mesh: bpy.types.Mesh) -> Integers | None:

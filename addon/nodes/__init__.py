@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 from .images import Textures
+from .mesh_data import MeshData, Part, Source
 from .translate import Emission, emission_of, translate_surface
 from .world import translate_world, translate_world_volume
 
 __all__ = [
     "Emission",
+    "MeshData",
+    "Part",
+    "Source",
     "Textures",
     "emission_of",
     "translate_surface",

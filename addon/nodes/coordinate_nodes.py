@@ -3,13 +3,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import basicrt
 
+from .. import compat
+from .graph import Place, find_socket, trace
+from .mesh_data import MeshData, Part, Source
 from .operations import Operands, Value, operation
+
+if TYPE_CHECKING:
+    from .node_view import Translation
 
 _COORDINATES = {
     "Generated": "generated",
@@ -17,6 +23,7 @@ _COORDINATES = {
     "UV": "uv",
     "Object": "object_position",
     "Camera": "camera_position",
+    "Window": "window",
     "Reflection": "reflection",
 }
 _GEOMETRY = {
@@ -30,6 +37,7 @@ _GEOMETRY = {
 _OBJECT = {
     "Location": ("vector", "object_location"),
     "Color": ("color", "object_color"),
+    "Alpha": ("number", "object_alpha"),
     "Object Index": ("number", "object_index"),
     "Material Index": ("number", "material_index"),
     "Random": ("number", "object_random"),
@@ -46,6 +54,7 @@ _LIGHT_PATH = {
     "Is Glossy Ray": "is_glossy_ray",
     "Is Reflection Ray": "is_reflection_ray",
     "Is Transmission Ray": "is_transmission_ray",
+    "Is Singular Ray": "is_singular_ray",
     "Is Volume Scatter Ray": "is_volume_ray",
     "Ray Length": "ray_length",
     "Ray Depth": "ray_depth",
@@ -61,11 +70,26 @@ def surface(of: Operands, kind: str, value: str) -> Value:
     return of.add(kind, basicrt.SurfaceOperation(value=value))
 
 
+def mesh_data(of: Operands, kind: str, asked: MeshData, missing: float = 0.0) -> Value:
+    """Numbers of the mesh, `missing` where it has none such."""
+    of.view.translation.mesh_data.add(asked)
+    made = basicrt.AttributeOperation(name=asked.exported_name, missing=missing)
+    return of.add(kind, made)
+
+
+def _uv(of: Operands, name: str) -> Value:
+    """Of a UV map, the one that is active for rendering where the name is empty."""
+    if name:
+        return mesh_data(of, "vector", MeshData(Source.UV, name))
+    of.view.translation.mesh_data.add(MeshData(Source.UV, ""))
+    return surface(of, "vector", "uv")
+
+
 def texture_vector(of: Operands, default: str) -> Any:
     """The Vector of a texture node: unlinked it means the generated or the UV coordinates."""
     if of.is_linked("Vector"):
         return of.vector("Vector")
-    return surface(of, "vector", default).data
+    return _uv(of, "").data if default == "uv" else surface(of, "vector", default).data
 
 
 def _from_table(of: Operands, output: str, table: dict[str, tuple[str, str]]) -> Value | None:
@@ -77,27 +101,105 @@ def texture_coordinate(of: Operands, output: str) -> Value | None:
     """One kind of coordinates."""
     if output not in _COORDINATES or of.node.from_instancer:
         return None
+    if output == "Window" and not of.view.translation.textures.has_window:
+        return None
+    if output == "Normal" and isinstance(of.view.translation.normal, basicrt.OperationRef):
+        spaces = {"from": "world", "to": "object", "as": "normal"}
+        vector = of.view.translation.normal
+        return of.add("vector", basicrt.ChangeSpaceOperation(vector=vector, **spaces))
     if output == "Object" and of.node.object is not None:
         place = surface(of, "vector", "position")
         matrix = np.array(of.node.object.matrix_world.inverted_safe(), np.float32)
         return of.add("vector", basicrt.TransformOperation(vector=place.data, transform=matrix))
-    return surface(of, "vector", _COORDINATES[output])
+    return _uv(of, "") if output == "UV" else surface(of, "vector", _COORDINATES[output])
 
 
 @operation("ShaderNodeUVMap")
 def uv_map(of: Operands, _output: str) -> Value | None:
-    """The UV map that is active for rendering."""
-    if of.node.from_instancer:
+    """A UV map by name."""
+    return None if of.node.from_instancer else _uv(of, of.node.uv_map)
+
+
+def _parts(of: Operands, source: Source, name: str, output: str) -> Value:
+    """An output of a node that reads an attribute."""
+    if output == "Fac":
+        return mesh_data(of, "number", MeshData(source, name, Part.MEAN))
+    if output == "Alpha":
+        return mesh_data(of, "number", MeshData(source, name, Part.ALPHA), missing=1.0)
+    return mesh_data(of, output.lower(), MeshData(source, name))
+
+
+@operation("ShaderNodeAttribute")
+def attribute(of: Operands, output: str) -> Value | None:
+    """An attribute of the mesh by name."""
+    if of.node.attribute_type != "GEOMETRY":
         return None
-    if of.node.uv_map:
-        of.view.translation.uv_maps.add(of.node.uv_map)
-    return surface(of, "vector", "uv")
+    return _parts(of, Source.ATTRIBUTE, of.node.attribute_name, output)
+
+
+@operation("ShaderNodeVertexColor")
+def color_attribute(of: Operands, output: str) -> Value:
+    """A colour of the mesh."""
+    return _parts(of, Source.COLOR, of.node.layer_name, output)
 
 
 @operation("ShaderNodeNewGeometry")
 def geometry(of: Operands, output: str) -> Value | None:
     """Of the surface."""
+    if output == "Normal" and isinstance(of.view.translation.normal, basicrt.OperationRef):
+        return Value("vector", of.view.translation.normal)
+    if output == "Tangent":
+        return _radial_tangent(of, "Z")
+    if output == "Random Per Island":
+        return mesh_data(of, "number", MeshData(Source.ATTRIBUTE, "", Part.ISLAND))
     return _from_table(of, output, _GEOMETRY)
+
+
+def _radial_tangent(of: Operands, axis: str) -> Value:
+    """Around an axis of the object, through the middle of its generated coordinates."""
+    generated = surface(of, "vector", "generated")
+    from_middle = of.add(
+        "vector",
+        basicrt.VectorMathOperation(operation="subtract", a=generated.data, b=(0.5, 0.5, 0.5)),
+    )
+    # Blender goes round y the other way.
+    around = {"X": (1.0, 0.0, 0.0), "Y": (0.0, -1.0, 0.0), "Z": (0.0, 0.0, 1.0)}[axis]
+    direction = of.add(
+        "vector",
+        basicrt.VectorMathOperation(operation="cross_product", a=around, b=from_middle.data),
+    )
+    return of.add("vector", basicrt.TangentOperation(direction=direction.data))
+
+
+@operation("ShaderNodeTangent")
+def tangent(of: Operands, _output: str) -> Value:
+    """Along a UV map's first coordinate, or around an axis."""
+    if of.node.direction_type == "RADIAL":
+        return _radial_tangent(of, of.node.axis)
+    along = mesh_data(of, "vector", MeshData(Source.UV, of.node.uv_map, Part.TANGENT))
+    return of.add("vector", basicrt.TangentOperation(direction=along.data))
+
+
+@operation("ShaderNodeWireframe")
+def wireframe(of: Operands, _output: str) -> Value:
+    """1 near the triangles' edges."""
+    made = basicrt.WireframeOperation(size=of.number("Size"), in_pixels=of.node.use_pixel_size)
+    return of.add("number", made)
+
+
+@operation("ShaderNodeHairInfo")
+def hair_info(_of: Operands, output: str) -> Value:
+    """What it says of surfaces."""
+    zero = Value("number", 0.0)
+    return Value("vector", (0.0, 0.0, 0.0)) if output == "Tangent Normal" else zero
+
+
+@operation("ShaderNodeParticleInfo")
+def particle_info(of: Operands, output: str) -> Value:
+    """As of an object that no particle shows."""
+    of.view.warn("particles are not known: its outputs are 0")
+    vectors = ("Location", "Velocity", "Angular Velocity")
+    return Value("vector", (0.0, 0.0, 0.0)) if output in vectors else Value("number", 0.0)
 
 
 @operation("ShaderNodeObjectInfo")
@@ -115,7 +217,14 @@ def camera_data(of: Operands, output: str) -> Value | None:
 @operation("ShaderNodeLightPath")
 def light_path(of: Operands, output: str) -> Value | None:
     """Of the ray."""
+    if output == "Portal Depth":
+        return Value("number", 0.0)  # Ray Portal BSDFs are drawn, and reported, as something else
     return surface(of, "number", _LIGHT_PATH[output]) if output in _LIGHT_PATH else None
+
+
+def _normal(of: Operands) -> Any:
+    """What is linked to Normal, or what stands for the surface's own."""
+    return of.vector("Normal") if of.is_linked("Normal") else of.view.translation.normal
 
 
 @operation("ShaderNodeFresnel")
@@ -123,7 +232,7 @@ def fresnel(of: Operands, _output: str) -> Value:
     """A dielectric's reflectance."""
     return of.add(
         "number",
-        basicrt.FresnelOperation(of="fresnel", value=of.number("IOR"), normal=of.vector("Normal")),
+        basicrt.FresnelOperation(of="fresnel", value=of.number("IOR"), normal=_normal(of)),
     )
 
 
@@ -133,7 +242,7 @@ def layer_weight(of: Operands, output: str) -> Value:
     kind = "facing" if output == "Facing" else "layer_fresnel"
     return of.add(
         "number",
-        basicrt.FresnelOperation(of=kind, value=of.number("Blend"), normal=of.vector("Normal")),
+        basicrt.FresnelOperation(of=kind, value=of.number("Blend"), normal=_normal(of)),
     )
 
 
@@ -180,32 +289,99 @@ def vector_transform(of: Operands, _output: str) -> Value:
 
 
 @operation("ShaderNodeNormalMap")
-def normal_map(of: Operands, _output: str) -> Value | None:
+def normal_map(of: Operands, _output: str) -> Value:
     """A normal from a colour."""
     space = of.node.space.lower()
-    if space not in ("tangent", "object", "world"):
-        return None
-    if of.node.uv_map:
-        of.view.translation.uv_maps.add(of.node.uv_map)
+    # How the colour's axes point otherwise than those of the space.
+    flips = [False, compat.is_green_down(of.node), False]
+    if space.startswith("blender_"):
+        flips = [flips[0], not flips[1], not flips[2]]
+    tangents: dict[str, Any] = {}
+    if space == "tangent":
+        for part in (Part.TANGENT, Part.TANGENT_SIGN):
+            kind = "vector" if part == Part.TANGENT else "number"
+            tangents[part] = mesh_data(of, kind, MeshData(Source.UV, of.node.uv_map, part)).data
     return of.add(
         "vector",
         basicrt.NormalMapOperation(
-            color=of.vector("Color"), strength=of.number("Strength"), space=space
+            color=_flipped(of, of.vector("Color"), flips),
+            strength=of.number("Strength"),
+            space=space.removeprefix("blender_"),
+            **tangents,
         ),
     )
+
+
+def _flipped(of: Operands, color: Any, flips: list[bool]) -> Any:
+    """The colour with 1 - c instead of c for some of its channels."""
+    if not any(flips):
+        return color
+    sign = tuple(-1.0 if is_flipped else 1.0 for is_flipped in flips)
+    one = tuple(float(is_flipped) for is_flipped in flips)
+    made = basicrt.VectorMathOperation(operation="multiply_add", a=color, b=sign, c=one)
+    return of.add("vector", made).data
 
 
 @operation("ShaderNodeBump")
 def bump(of: Operands, _output: str) -> Value:
     """A normal from a height."""
-    normal: Any = of.vector("Normal") if of.is_linked("Normal") else (0.0, 0.0, 0.0)
     return of.add(
         "vector",
         basicrt.BumpOperation(
             height=of.number("Height"),
             strength=of.number("Strength"),
             distance=of.number("Distance"),
-            normal=normal,
+            normal=_normal(of),
             invert=of.node.invert,
+            filter_width=_filter_width(of),
         ),
     )
+
+
+def _filter_width(of: Operands) -> float:
+    """Of a Bump node: nothing that is linked to it counts in Cycles either."""
+    socket: Any = find_socket(of.node.inputs, "Filter Width")
+    width = compat.bump_filter_width() if socket is None else float(socket.default_value)
+    return max(width, 1e-3)
+
+
+@operation("ShaderNodeBevel")
+def bevel(of: Operands, _output: str) -> Value | None:
+    """Edges stay sharp."""
+    of.view.warn("not supported: edges stay sharp")
+    if of.is_linked("Normal"):
+        return of.value("Normal")
+    return surface(of, "vector", "normal")
+
+
+def displacement_normal(place: Place, translation: Translation) -> basicrt.OperationRef | None:
+    """The normal of a surface that is displaced as much as a Displacement node says, at its place.
+
+    None where it isn't displaced, or, with a warning, by another node.
+    """
+    source = trace(place)
+    node: Any = source.socket.node
+    if not source.socket.is_output or node is None:
+        return None
+    if node.bl_idname != "ShaderNodeDisplacement":
+        translation.warn(f"displacement by {node.bl_label} is not supported and left out")
+        return None
+    from .node_view import NodeView
+
+    of = Operands(NodeView(node, source.groups, translation))
+    if of.is_linked("Normal"):
+        of.view.warn("Normal is not supported: the height counts along the surface's own")
+    above = _math(of, "subtract", of.number("Height"), of.number("Midlevel"))
+    height = _math(of, "multiply", above, of.number("Scale"))
+    return translation.material.add_operation(
+        basicrt.BumpOperation(
+            height=height,
+            distance=1.0,
+            filter_width=compat.bump_filter_width(),
+            local=node.space == "OBJECT",
+        )
+    )
+
+
+def _math(of: Operands, name: str, a: Any, b: Any) -> Any:
+    return of.add("number", basicrt.MathOperation(operation=name, a=a, b=b)).data

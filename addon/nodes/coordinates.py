@@ -23,7 +23,6 @@ class Coordinates:
 
     source: str
     matrix: Matrix  # (4, 4), of points
-    uv_map: str = ""  # the name of a UV map, "" for the one that is active for rendering
 
 
 def coordinates_at(view: NodeView, identifier: str = "Vector") -> Coordinates | None:
@@ -37,7 +36,7 @@ def coordinates_at(view: NodeView, identifier: str = "Vector") -> Coordinates | 
     node: Any = source.socket.node
     origin = NodeView(node, source.groups, view.translation)
     if origin.bl_idname == "ShaderNodeUVMap" and not node.from_instancer:
-        return Coordinates("UV", np.eye(4), node.uv_map)
+        return Coordinates("UV", np.eye(4))
     if origin.bl_idname == "ShaderNodeTexCoord" and not node.from_instancer:
         if source.socket.identifier == "Object" and node.object is not None:
             view.warn(f"{identifier} is linked to an object's coordinates, which are not supported")
@@ -63,7 +62,7 @@ def _mapped(view: NodeView) -> Coordinates | None:
     if node.vector_type == "NORMAL":
         view.warn("the type Normal is not supported: left out")
         return before
-    return Coordinates(before.source, _mapping_matrix(view) @ before.matrix, before.uv_map)
+    return Coordinates(before.source, _mapping_matrix(view) @ before.matrix)
 
 
 def _mapping_matrix(view: NodeView) -> Matrix:

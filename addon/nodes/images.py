@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 import basicrt
 
+from .mesh_data import MeshData
+
 MISSING = (1.0, 0.0, 1.0)  # the colour of an image that can't be had, as in Cycles
 
 _LINEAR_SPACES = ("Linear", "Linear Rec.709", "Raw", "Non-Color")
@@ -36,8 +38,14 @@ class Textures:
         self._scene = scene
         self._images: dict[int, ConvertedImage | None] = {}
         self._indices: dict[Hashable, int] = {}
-        # By a material's name: the UV maps that its textures name.
-        self.uv_maps: dict[str, set[str]] = {}
+        # By a material's number: what it asks for of meshes.
+        self.mesh_data: dict[int, frozenset[MeshData]] = {}
+
+    @property
+    def has_window(self) -> bool:
+        """Whether the camera's picture is flat: Window coordinates are known."""
+        flat = (basicrt.PerspectiveCamera, basicrt.OrthographicCamera)
+        return isinstance(self._scene.camera, flat)
 
     def image(
         self, b_image: bpy.types.Image | None, warn: Callable[[str], None]

@@ -16,6 +16,7 @@ from .. import compat
 from ..report import Report
 from .graph import Groups, Place, find_socket, trace
 from .images import Textures
+from .mesh_data import MeshData
 from .operations import OPERATIONS, Value, as_vector, finite, output_value, value_at
 from .operations import as_number as number_of
 
@@ -73,8 +74,10 @@ class Translation:
     textures: Textures
     # A volume is the same everywhere: nothing in it may vary.
     is_volume: bool = False
-    # Names of the UV maps that textures ask for.
-    uv_maps: set[str] = field(default_factory=set)
+    # What shaders have that nothing is linked to: zero is the surface's own, as it is.
+    normal: Color | basicrt.OperationRef = (0.0, 0.0, 0.0)
+    # What it asks for of meshes.
+    mesh_data: set[MeshData] = field(default_factory=set)
     # Nodes that are done: one node may feed several others.
     done: dict[tuple[int, ...], NodeIndex] = field(default_factory=dict)
     # The same for the outputs of value nodes.
@@ -170,14 +173,14 @@ class NodeView:
         return self.number(identifier, lowest, highest) if reference is None else reference
 
     def normal(self, identifier: str = "Normal") -> Color | basicrt.OperationRef:
-        """A normal in world space; zero where nothing is linked."""
+        """A normal in world space; zero is the surface's own."""
         socket = find_socket(self.node.inputs, identifier)
         if socket is None or not trace(Place(socket, self.groups)).socket.is_output:
-            return (0.0, 0.0, 0.0)
+            return self.translation.normal
         found: Any = self._varying_at(identifier)
         if found is None:
-            self.ignore(**{identifier: None})
-            return (0.0, 0.0, 0.0)
+            self.ignore(**{identifier.replace(" ", "_"): None})
+            return self.translation.normal
         return found
 
     def color(self, identifier: str) -> Color | basicrt.TextureRef | basicrt.OperationRef:
@@ -282,6 +285,9 @@ class NodeView:
         node: Any = source.socket.node
         if node.bl_idname in VALUES:
             return NodeView(node, source.groups, self.translation).output_value()
+        found = output_value(self.translation, source) if node.bl_idname in OPERATIONS else None
+        if found is not None and not isinstance(found.data, basicrt.OperationRef):
+            return found.data
         self.warn(
             f'{identifier} is linked to "{compat.node_name(node)}", which is not supported: its own value is used'
         )
@@ -299,9 +305,9 @@ def is_over_uv(view: NodeView) -> bool:
         return True
     origin = NodeView(source.socket.node, source.groups, view.translation)  # type: ignore[arg-type]
     if origin.bl_idname == "ShaderNodeUVMap":
-        return True
+        return not origin.node.uv_map and not origin.node.from_instancer  # type: ignore[attr-defined]
     if origin.bl_idname == "ShaderNodeTexCoord":
-        return source.socket.identifier == "UV"
+        return source.socket.identifier == "UV" and not origin.node.from_instancer  # type: ignore[attr-defined]
     if origin.bl_idname != "ShaderNodeMapping" or origin.node.vector_type == "NORMAL":  # type: ignore[attr-defined]
         return False
     moves = (find_socket(origin.node.inputs, name) for name in ("Location", "Rotation", "Scale"))

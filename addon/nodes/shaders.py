@@ -98,7 +98,6 @@ def glossy(view: NodeView) -> NodeIndex:
 @shader("ShaderNodeBsdfMetallic")
 def metallic(view: NodeView) -> NodeIndex:
     """The Metallic BSDF of 4.3 and later: by two colours or by measured indices."""
-    view.ignore(Normal=None)
     node: Any = view.node
     anisotropy, rotation, tangent = _stretch(view, "Anisotropy", "Rotation", 0)
     look: dict[str, Any]
@@ -109,6 +108,7 @@ def metallic(view: NodeView) -> NodeIndex:
     return view.add(
         basicrt.MetallicShader(
             model=node.fresnel_type.lower(),
+            normal=view.normal(),
             roughness=view.share("Roughness"),
             distribution=_distribution(view),
             anisotropy=anisotropy,
@@ -123,20 +123,19 @@ def metallic(view: NodeView) -> NodeIndex:
 @shader("ShaderNodeBsdfTranslucent")
 def translucent(view: NodeView) -> NodeIndex:
     """Diffuse, to the other side."""
-    view.ignore(Normal=None)
-    return view.add(basicrt.TranslucentShader(color=view.color("Color")))
+    return view.add(basicrt.TranslucentShader(color=view.color("Color"), normal=view.normal()))
 
 
 @shader("ShaderNodeBsdfSheen")
 def sheen(view: NodeView) -> NodeIndex:
     """Fibres, or Ashikhmin's velvet."""
-    view.ignore(Normal=None)
     node: Any = view.node
     return view.add(
         basicrt.SheenShader(
             color=view.color("Color"),
             roughness=view.share("Roughness"),
             model=node.distribution.lower(),
+            normal=view.normal(),
         )
     )
 
@@ -144,12 +143,12 @@ def sheen(view: NodeView) -> NodeIndex:
 @shader("ShaderNodeBsdfToon")
 def toon(view: NodeView) -> NodeIndex:
     """A spot of even brightness."""
-    view.ignore(Normal=None)
     node: Any = view.node
     return view.add(
         basicrt.ToonShader(
             color=view.color("Color"),
             component=node.component.lower(),
+            normal=view.normal(),
             size=view.share("Size"),
             smooth=view.share("Smooth"),
         )
@@ -276,12 +275,12 @@ def _coat_layer(view: NodeView) -> dict[str, Any]:
     weight = view.share("Coat Weight")
     if weight == 0.0:
         return {}
-    view.ignore(Coat_Normal=None)
     return {
         "coat_weight": weight,
         "coat_roughness": view.share("Coat Roughness"),
         "coat_ior": view.varying_number("Coat IOR", 1.0),
         "coat_tint": view.color("Coat Tint"),
+        "coat_normal": view.normal("Coat Normal"),
     }
 
 
@@ -296,7 +295,8 @@ def _coat_layer(view: NodeView) -> dict[str, Any]:
 def diffuse_instead(view: NodeView) -> NodeIndex:
     """Shaders that spread light widely."""
     view.warn("not supported: drawn as a Diffuse BSDF")
-    return view.add(basicrt.DiffuseShader(color=view.color("Color"), twosided=True))
+    made = basicrt.DiffuseShader(color=view.color("Color"), twosided=True, normal=view.normal())
+    return view.add(made)
 
 
 @shader("ShaderNodeBsdfRayPortal")

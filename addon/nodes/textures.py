@@ -12,6 +12,7 @@ import basicrt
 from .coordinate_nodes import texture_vector
 from .coordinates import Coordinates, coordinates_at
 from .images import MISSING, ConvertedImage
+from .mesh_data import MeshData, Source
 from .node_view import NodeView, texture
 from .operations import Operands, Value, operation
 
@@ -52,8 +53,8 @@ def _uv_transform(view: NodeView) -> np.ndarray:
     coordinates = coordinates_at(view) or Coordinates("default", np.eye(4))
     if coordinates.source not in ("default", "UV", "constant"):
         view.warn(f"{coordinates.source} coordinates are not supported: the UV map is used")
-    if coordinates.uv_map:
-        view.translation.uv_maps.add(coordinates.uv_map)
+    if coordinates.source != "constant":
+        view.translation.mesh_data.add(MeshData(Source.UV, ""))
     return np.asarray(coordinates.matrix, np.float32)
 
 

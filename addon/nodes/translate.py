@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 
@@ -12,6 +13,7 @@ import basicrt
 from .. import compat
 from ..report import Report
 from . import coordinate_nodes, math_nodes, pattern_nodes, shaders, textures, values, volumes
+from .coordinate_nodes import displacement_normal
 from .graph import Place, find_socket, trace
 from .images import Textures
 from .node_view import Color, NodeView, Translation, scaled, unit
@@ -61,15 +63,29 @@ def translate_surface(
             material.surface = material.add(basicrt.DiffuseShader(color=color, twosided=True))
             return material
         translation = Translation(f'material "{b_material.name}"', report, material, store)
-        if is_linked(tree, "Displacement"):
-            translation.warn("Displacement is not supported and left out")
+        displacement = output_place(tree, "Displacement")
+        if displacement is not None:
+            _displace(translation, displacement, b_material)
         place = output_place(tree, "Surface")
         if place is not None:
             material.surface = translation.shader_at(place)
         fill(translation, tree)
-        if translation.uv_maps:
-            store.uv_maps[b_material.name] = translation.uv_maps
+        b_original: Any = b_material.original
+        store.mesh_data[b_original.session_uid] = frozenset(translation.mesh_data)
     return material
+
+
+def _displace(
+    translation: Translation, place: Place, b_material: bpy.types.Material
+) -> None:
+    """Gives shaders the normal of the displaced surface, which itself stays where it is."""
+    normal = displacement_normal(place, translation)
+    if normal is None:
+        return
+    translation.normal = normal
+    translation.values.clear()  # the height knows the surface as it is, all else what it looks like
+    if getattr(b_material, "displacement_method", "BUMP") != "BUMP":
+        translation.warn("true displacement is not supported: drawn as bumps")
 
 
 def fill(surface: Translation, tree: bpy.types.ShaderNodeTree) -> None:

@@ -15,7 +15,7 @@ import basicrt
 from .. import compat
 from ..export import camera, light, material, mesh, motion, settings, visibility, world
 from ..export.identity import uid
-from ..nodes import Textures
+from ..nodes import MeshData, Textures
 from ..report import ExportError, Report
 from .motion import FrameSet, MotionExport, set_frame
 
@@ -123,10 +123,12 @@ class _InstanceExport:
         self._report = report
         self._textures = textures
         self._movement = movement
-        self._shapes: dict[int, int | None] = {}
+        # By a mesh's key and what its materials ask for.
+        self._shapes: dict[tuple[int, frozenset[MeshData]], int | None] = {}
         self._materials: dict[int, int] = {}
         # By the numbers of an object and of what instances it, and by the mesh's key.
         self._slots: dict[tuple[int, int], list[int | None]] = {}
+        self._asked: dict[tuple[int, int], frozenset[MeshData]] = {}
         self._visibility: dict[tuple[int, int], int] = {}
 
     def run(self) -> None:
@@ -152,6 +154,7 @@ class _InstanceExport:
     ) -> None:
         """One placed mesh."""
         b_mesh: Any = b_object.data
+        materials = self._materials_of(b_object, b_mesh)
         shape = self._shape_of(b_object, b_mesh)
         if shape is None:
             return
@@ -165,10 +168,11 @@ class _InstanceExport:
             basicrt.Instance(
                 shape=shape,
                 transform=transform,
-                materials=self._materials_of(b_object, b_mesh),
+                materials=materials,
                 name=b_object.name,
                 visibility=self._visibility_of(b_instance, b_object),
                 color=b_object.color[:3],
+                alpha=b_object.color[3],
                 random=b_instance.random_id / 0xFFFFFFFF,
                 holdout=self._is_holdout(b_instance, b_object),
                 shadow_catcher=self._is_shadow_catcher(b_instance, b_object),
@@ -183,16 +187,19 @@ class _InstanceExport:
 
     def _shape_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> int | None:
         """The index of a mesh's shape, None where it has no faces."""
-        key = mesh.key(b_mesh)
+        asked = self._asked[uid(b_object), mesh.key(b_mesh)]
+        key = (mesh.key(b_mesh), asked)
         if key not in self._shapes:
-            self._shapes[key] = self._new_shape(b_object, b_mesh)
+            self._shapes[key] = self._new_shape(b_object, b_mesh, asked)
         return self._shapes[key]
 
-    def _new_shape(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> int | None:
+    def _new_shape(
+        self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh, asked: frozenset[MeshData]
+    ) -> int | None:
         """The index of a mesh's new shape, called by the name of its first object."""
         name = f'object "{b_object.name}"'
         try:
-            shape = mesh.convert_object(b_object, b_mesh)
+            shape = mesh.convert_object(b_object, b_mesh, asked)
         except basicrt.SceneError as error:
             raise ExportError(f"{name}: {error}") from error
         if shape is None:
@@ -208,26 +215,10 @@ class _InstanceExport:
             override = b_view_layer.material_override
             materials = [override] if override else material.slots(b_object, b_mesh)
             self._slots[key] = [self._material(b_material) for b_material in materials]
-            self._check_uv_maps(b_object, b_mesh, materials)
+            data = self._textures.mesh_data
+            asked = [data.get(uid(one), ()) for one in materials if one is not None]
+            self._asked[key] = frozenset().union(*asked)
         return self._slots[key]
-
-    def _check_uv_maps(
-        self,
-        b_object: bpy.types.Object,
-        b_mesh: bpy.types.Mesh,
-        materials: list[bpy.types.Material | None],
-    ) -> None:
-        """Tell of UV maps that materials name and that are not the one that a mesh is exported with."""
-        active = mesh.active_uv_map(b_mesh)
-        for b_material in materials:
-            for name in sorted(
-                self._textures.uv_maps.get(b_material.name, ()) if b_material else ()
-            ):
-                if name != active:
-                    self._report.warn(
-                        f'object "{b_object.name}"',
-                        f'the UV map "{name}" is not the one that is active for rendering, which is used instead',
-                    )
 
     def _material(self, b_material: bpy.types.Material | None) -> int | None:
         """The index of a material, None for none."""

@@ -90,6 +90,7 @@ void bind_instance(py::module_& m) {
       make_attribute(field("shadow_catcher", &Instance::is_shadow_catcher,
                            "the camera sees through it, darkened by the shadows of what is none")),
       info_attribute("color", "for materials that ask", &ObjectInfo::color),
+      info_attribute("alpha", "of the colour, for materials that ask", &ObjectInfo::alpha),
       info_attribute("random", "in [0, 1], for materials that ask", &ObjectInfo::random),
       make_attribute(field("shadow_terminator_offset", &Instance::shadow_terminator_offset,
                            "cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not "

@@ -159,13 +159,17 @@ Raises SceneError naming the array, the rule and the value.)")
           },
           "where generated coordinates are 0, and how far from there they are 1")
       .def_property_readonly(
-          "attribute_names",
-          [](const Mesh& self) {
-            std::vector<std::string> names;
-            for (const MeshAttribute& attribute : self.attributes) names.push_back(attribute.name);
-            return names;
+          "attributes",
+          [](const py::object& self) {
+            std::vector<std::tuple<std::string, std::string, py::array_t<float>>> attributes;
+            for (const MeshAttribute& attribute : self.cast<const Mesh&>().attributes)
+              attributes.emplace_back(attribute.name,
+                                      enum_names<AttributeDomain>[static_cast<std::size_t>(attribute.domain)],
+                                      read_only_view(reinterpret_cast<const float*>(attribute.values.data()),
+                                                     {static_cast<py::ssize_t>(attribute.values.size()), 3}, self));
+            return attributes;
           },
-          "of the attributes")
+          "names, domains and values, (N, 3) float32")
       .def("__repr__", [](const Mesh& mesh) {
         return "<Mesh of " + std::to_string(mesh.positions.size()) + " positions, " +
                std::to_string(mesh.triangles.size()) + " triangles>";

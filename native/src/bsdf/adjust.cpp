@@ -11,7 +11,7 @@ namespace basicrt {
 
 // All lobes again, each after `change`, which may say (by false) that it is left out.
 void Bsdf::rebuild(auto&& change) {
-  const LobeList old = lobes_;
+  const List<WeightedLobe> old = lobes_;
   lobes_.count = 0;
   selection_ = 0;
   has_only_deltas_ = true;

@@ -6,12 +6,41 @@
 
 namespace basicrt {
 
-BsdfValue Bsdf::eval_kinds(Vec3f wo, Vec3f wi, std::uint32_t kinds) const {
-  const Side side = find_side(wo);
-  const Vec3f local_wi = frame_.to_local(wi * side.sign);
-  if (leaks(side, wi, local_wi)) return {};
-  BsdfValue sum{.pdf = eval_lobes(side.wo, local_wi, nullptr).pdf};
+void Bsdf::use_normal(Vec3f normal) {
+  if (lobes_.count == 0 || frame_.normal == normal) {
+    if (frame_.normal != normal) frame_ = make_frame(normal);
+    current_frame_ = 0;
+    return;
+  }
+  const std::span<const Frame> others = other_frames_.used();
+  const auto found = std::ranges::find(others, normal, &Frame::normal);
+  current_frame_ = static_cast<std::uint8_t>(found - others.begin() + 1);
+  if (found == others.end()) other_frames_.append(make_frame(normal));
+}
+
+LobeValue Bsdf::eval_turned(Vec3f wo, Vec3f wi, const WeightedLobe* except, bool may_leak) const {
+  LobeValue sum;
   for (const WeightedLobe& weighted : lobes_.used()) {
+    if (&weighted == except) continue;
+    const Frame& frame = frame_of(weighted);
+    const Side side = find_side(frame, wo);
+    const Vec3f local_wi = frame.to_local(wi * side.sign);
+    const bool is_leak = leaks(side, wi, local_wi);
+    if (is_leak && !(may_leak && local_wi.z > 0)) continue;
+    const LobeValue lobe = std::visit([&](const auto& l) { return l.eval(side.wo, local_wi); }, weighted.lobe);
+    sum.value += weighted.weight * lobe.value;
+    if (!is_leak) sum.pdf += weighted.selection / selection_ * lobe.pdf;
+  }
+  return sum;
+}
+
+BsdfValue Bsdf::eval_kinds(Vec3f wo, Vec3f wi, std::uint32_t kinds) const {
+  BsdfValue sum{.pdf = eval(wo, wi).pdf};
+  for (const WeightedLobe& weighted : lobes_.used()) {
+    const Frame& frame = frame_of(weighted);
+    const Side side = find_side(frame, wo);
+    const Vec3f local_wi = frame.to_local(wi * side.sign);
+    if (leaks(side, wi, local_wi)) continue;
     std::visit(
         [&]<class OneLobe>(const OneLobe& lobe) {
           ScatterKind kind = local_wi.z > 0 ? ScatterKind::glossy : ScatterKind::transmission;
@@ -35,20 +64,23 @@ std::optional<BsdfSample> Bsdf::sample(Vec3f wo, float choice, Vec2f u) const {
   const float probability = weighted.selection / selection_;
   const float inner_choice = std::min(rest / weighted.selection, one_minus_epsilon);
 
-  const Side side = find_side(wo);
+  const Frame& frame = frame_of(weighted);
+  const Side side = find_side(frame, wo);
   const auto lobe = std::visit([&](const auto& l) { return l.sample(side.wo, inner_choice, u); }, weighted.lobe);
   if (!lobe) return std::nullopt;
   // Straight through means exactly that: no rounding on the way to the local frame and back.
   const bool is_straight = lobe->kind == ScatterKind::transparent;
-  const Vec3f wi = is_straight ? -wo : frame_.to_world(lobe->wi) * side.sign;
+  const Vec3f wi = is_straight ? -wo : frame.to_world(lobe->wi) * side.sign;
   if (!is_straight && leaks(side, wi, lobe->wi)) return std::nullopt;
 
-  BsdfSample sample{wi, weighted.weight * lobe->weight, lobe->pdf, lobe->is_delta, lobe->kind};
+  BsdfSample sample{wi, weighted.weight * lobe->weight, lobe->pdf, lobe->is_delta, lobe->kind,
+                    std::holds_alternative<Translucent>(weighted.lobe)};
   if (lobe->is_delta) {
     sample.weight *= 1 / probability;
     sample.pdf = probability;
   } else if (lobes.size() > 1) {
-    const LobeValue others = eval_lobes(side.wo, lobe->wi, &weighted);
+    const LobeValue others =
+        is_turned() ? eval_turned(wo, wi, &weighted, false) : eval_lobes(side.wo, lobe->wi, &weighted);
     sample.pdf = probability * lobe->pdf + others.pdf;
     sample.weight = (sample.weight * lobe->pdf + others.value) / sample.pdf;
   }

@@ -44,6 +44,7 @@ struct BsdfSample {
   float pdf = 0;  // of the whole Bsdf for wi, over solid angle; where is_delta it is no density and must not be used
   bool is_delta = false;
   ScatterKind kind = ScatterKind::diffuse;
+  bool is_translucent = false;  // transmitted and spread evenly
 };
 
 struct BsdfValue {
@@ -52,7 +53,7 @@ struct BsdfValue {
 };
 
 // The lobes of one surface point as seen from one direction, few and of fixed room, so that shading never allocates.
-// Light that the shading normal would let leak through the geometric surface is cut off: wi must lie on the same side
+// Lobes may have normals of their own. Light that the shading normal would let leak through the geometric surface is cut off: wi must lie on the same side
 // of both.
 class Bsdf {
  public:
@@ -80,7 +81,7 @@ class Bsdf {
     const Color share = weight * albedo;
     const float selection = luminance(share);
     if (!(selection > 0)) return;
-    lobes_.append({lobe, weight, selection});
+    lobes_.append({lobe, weight, selection, current_frame_});
     selection_ += selection;
     albedo_ += share;
     has_only_deltas_ = has_only_deltas_ && lobe.is_delta();
@@ -103,14 +104,15 @@ class Bsdf {
   // Where all light must come from that eval() is to see: the side of a surface with this normal, of unit length. Zero
   // where it may come from anywhere.
   [[nodiscard]] Vec3f lit_side(Vec3f wo) const {
-    return only_reflects_ ? frame_.normal * (dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f) : Vec3f(0.0f);
+    return only_reflects_ && !is_turned() ? frame_.normal * (dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f) : Vec3f(0.0f);
   }
   // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
   // A better one, of what is scattered in one way: see pass_albedo.cpp.
   [[nodiscard]] Color albedo(Vec3f wo, ScatterKind kind) const;
 
-  void set_frame(const Frame& shading_frame) { frame_ = shading_frame; }
+  // The normal of the lobes that are added from now on.
+  void use_normal(Vec3f normal);
 
   // Makes microfacets' alpha at least so much, mirrors rough. See adjust.cpp for this and the next.
   void roughen(float least_alpha);
@@ -127,27 +129,29 @@ class Bsdf {
   struct WeightedLobe {
     Lobe lobe;
     Color weight;
-    float selection;  // in proportion to the probability of being picked; all of them add up to selection_
+    float selection;     // in proportion to the probability of being picked; all of them add up to selection_
+    std::uint8_t frame;  // 0 is frame_, others are those of other_frames_
   };
-  // Only the lobes in use are made and copied: all sixteen would cost more than shading does.
-  struct LobeList {
+  // Only the items in use are made and copied: all sixteen lobes would cost more than shading does.
+  template <class Item>
+  struct List {
     int count = 0;
     union {
-      WeightedLobe lobes[max_lobes];
+      Item items[max_lobes];
     };
 
-    LobeList() {}  // NOLINT: no lobes yet
-    LobeList(const LobeList& other) { *this = other; }
-    LobeList& operator=(const LobeList& other) {
+    List() {}  // NOLINT: nothing yet
+    List(const List& other) { *this = other; }
+    List& operator=(const List& other) {
       count = other.count;
-      for (int i = 0; i < count; ++i) std::construct_at(&lobes[i], other.lobes[i]);
+      for (int i = 0; i < count; ++i) std::construct_at(&items[i], other.items[i]);
       return *this;
     }
-    void append(const WeightedLobe& lobe) {
+    void append(const Item& item) {
       BASICRT_ASSERT(count < max_lobes);
-      std::construct_at(&lobes[count++], lobe);
+      std::construct_at(&items[count++], item);
     }
-    [[nodiscard]] std::span<const WeightedLobe> used() const { return {lobes, static_cast<std::size_t>(count)}; }
+    [[nodiscard]] std::span<const Item> used() const { return {items, static_cast<std::size_t>(count)}; }
   };
 
   // The directions as the lobes want them: z is the shading normal on wo's side of the surface.
@@ -155,14 +159,21 @@ class Bsdf {
     float sign;  // -1: wo is at the back of the surface
     Vec3f wo;
   };
-  [[nodiscard]] Side find_side(Vec3f wo) const {
+  [[nodiscard]] Side find_side(const Frame& frame, Vec3f wo) const {
     const float sign = dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f;
-    return {sign, frame_.to_local(wo * sign)};
+    return {sign, frame.to_local(wo * sign)};
+  }
+  [[nodiscard]] bool is_turned() const { return other_frames_.count > 0; }  // not all lobes have frame_
+  [[nodiscard]] const Frame& frame_of(const WeightedLobe& lobe) const {
+    return lobe.frame == 0 ? frame_ : other_frames_.items[lobe.frame - 1];
   }
   [[nodiscard]] bool leaks(const Side& side, Vec3f world_wi, Vec3f local_wi) const {
     return (dot(geometric_normal_, world_wi) * side.sign > 0) != (local_wi.z > 0);
   }
   [[nodiscard]] LobeValue eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except) const;
+  // The same of directions in world space, each lobe in its own frame. Those that leak may still count, without a
+  // density.
+  [[nodiscard]] LobeValue eval_turned(Vec3f wo, Vec3f wi, const WeightedLobe* except, bool may_leak) const;
   void rebuild(auto&& change);
 
   Frame frame_;
@@ -170,7 +181,9 @@ class Bsdf {
   Color albedo_{0.0f};
   float selection_ = 0;
   bool has_only_deltas_ = true, only_reflects_ = true;
-  LobeList lobes_;
+  List<WeightedLobe> lobes_;
+  List<Frame> other_frames_;
+  std::uint8_t current_frame_ = 0;
 };
 
 // All lobes, or all but one.
@@ -189,7 +202,11 @@ inline LobeValue Bsdf::eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except
 }
 
 inline BsdfValue Bsdf::eval(Vec3f wo, Vec3f wi) const {
-  const Side side = find_side(wo);
+  if (is_turned()) {
+    const LobeValue sum = eval_turned(wo, wi, nullptr, false);
+    return {sum.value, sum.pdf};
+  }
+  const Side side = find_side(frame_, wo);
   const Vec3f local_wi = frame_.to_local(wi * side.sign);
   if (leaks(side, wi, local_wi)) return {};
   const LobeValue sum = eval_lobes(side.wo, local_wi, nullptr);
@@ -197,7 +214,11 @@ inline BsdfValue Bsdf::eval(Vec3f wo, Vec3f wi) const {
 }
 
 inline BsdfValue Bsdf::eval_smooth(Vec3f wo, Vec3f wi) const {
-  const Side side = find_side(wo);
+  if (is_turned()) {
+    const LobeValue sum = eval_turned(wo, wi, nullptr, true);
+    return {sum.value, sum.pdf};
+  }
+  const Side side = find_side(frame_, wo);
   const Vec3f local_wi = frame_.to_local(wi * side.sign);
   const bool is_leak = leaks(side, wi, local_wi);
   if (is_leak && !(local_wi.z > 0)) return {};

@@ -142,11 +142,7 @@ void flatten(const GlassShader& node, const Target& target, float weight) {
 // What the lobes of a shader without varying inputs are turned to.
 template <class Shader>
 Vec3f normal_of(const Shader& shader, const SurfacePoint& point, bool is_back) {
-  if constexpr (requires { shader.normal; }) {
-    const Vec3f normal = shader.normal.constant;
-    const float size = length(normal);
-    if (size > 0) return normal * ((is_back ? -1.0f : 1.0f) / size);
-  }
+  if constexpr (requires { shader.normal; }) return lobe_normal(shader.normal.constant, point, is_back);
   return point.shading_normal;
 }
 
@@ -155,10 +151,8 @@ template <class Shader>
 void flatten_constant(const Shader& node, const SurfacePoint& point, Vec3f wo, SurfaceShading& shading, float weight) {
   const bool is_back = dot(point.geometric_normal, wo) < 0;
   const Target target{point, wo, is_back, shading, normal_of(node, point, is_back)};
-  if (target.normal != point.shading_normal) {
-    shading.is_uniform = false;
-    shading.bsdf.set_frame(make_frame(target.normal));
-  }
+  if (target.normal != point.shading_normal) shading.is_uniform = false;
+  shading.bsdf.use_normal(target.normal);
   flatten(node, target, weight);
 }
 

@@ -13,6 +13,12 @@
 
 namespace basicrt::flattening {
 
+// A shader's normal, which is on the viewer's side, on the surface's own; zero stands for the surface's normal.
+[[nodiscard]] inline Vec3f lobe_normal(Vec3f normal, const SurfacePoint& point, bool is_back) {
+  const float size = length(normal);
+  return size > 0 ? normal * ((is_back ? -1.0f : 1.0f) / size) : point.shading_normal;
+}
+
 // Where a material is being flattened, and into what.
 struct Target {
   const SurfacePoint& point;

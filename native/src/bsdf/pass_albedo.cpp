@@ -69,9 +69,9 @@ constexpr ScatterKind reflection_kind_of(const AnyLobe& /*lobe*/) {
 }  // namespace
 
 Color Bsdf::albedo(Vec3f wo, ScatterKind kind) const {
-  const float cos_theta = std::clamp(find_side(wo).wo.z, 1e-3f, 1.0f);
   Color sum(0.0f);
-  for (const WeightedLobe& weighted : lobes_.used())
+  for (const WeightedLobe& weighted : lobes_.used()) {
+    const float cos_theta = std::clamp(find_side(frame_of(weighted), wo).wo.z, 1e-3f, 1.0f);
     sum += weighted.weight * std::visit(
                                  [&]<class AnyLobe>(const AnyLobe& lobe) {
                                    if constexpr (is_two_sided<AnyLobe>) {
@@ -83,6 +83,7 @@ Color Bsdf::albedo(Vec3f wo, ScatterKind kind) const {
                                    }
                                  },
                                  weighted.lobe);
+  }
   return sum;
 }
 

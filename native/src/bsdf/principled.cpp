@@ -35,11 +35,15 @@ class Principled {
   // Its reflection loses what bounces between facets, whatever the distribution, but what is below gets no more of it.
   void add_coat() {
     if (!(node_.coat_weight > 0)) return;
-    const float cosine = target_.cos_theta();
+    Target coat = target_;
+    coat.normal = lobe_normal(node_.coat_normal.constant, target_.point, target_.is_back);
+    const float cosine = coat.cos_theta();
     const Microfacets microfacets = make_microfacets(node_.coat_roughness, FacetDistribution::ggx);
     const float albedo = layer_albedo(microfacets, node_.coat_ior, cosine);
+    bsdf_.use_normal(coat.normal);
     bsdf_.add(MicrofacetReflection<InterfaceFresnel>{microfacets, {node_.coat_ior}}, weight_ * node_.coat_weight,
               Color(albedo));
+    bsdf_.use_normal(target_.normal);
     weight_ *= remainder_below(Color(albedo * node_.coat_weight));
 
     // Beer's law along the refracted way to the viewer; straight up, that is 1 long.

@@ -81,6 +81,8 @@ class SurfacePoints {
           .placement = &instance.placement,
           .object = &instance.info,
           .world_to_camera = &scene.world_to_camera,
+          .window = scene.window ? &*scene.window : nullptr,
+          .footprint = scene.pixel_width + scene.pixel_spread * point.t,
           .object_index = instance.pass_index,
           .material_index = scene.material_of(point).material.pass_index,
           .ray_kinds = ray_kinds};

@@ -118,12 +118,26 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
 
 ShadingContext PathIntegrator::context_of(const Path& path, const Ray& ray, const SurfacePoint& point) const {
   ShadingContext context = shading_context(scene_, point, ray.kinds);
-  context.bounces = path.bounces.total;
-  context.diffuse_bounces = path.bounces.diffuse;
-  context.glossy_bounces = path.bounces.glossy;
-  context.transmission_bounces = path.bounces.transmission;
-  context.transparent_bounces = path.bounces.transparent;
+  context.footprint += scene_.pixel_spread * path.length;
+  context.is_singular_ray = path.is_specular && !path.is_camera_ray;
+  context.is_translucent_ray = path.is_translucent;
+  set_bounces(context, path.bounces);
   return context;
+}
+
+ShadingContext PathIntegrator::shadow_context(const Connection& connection, const SurfacePoint& point) const {
+  ShadingContext context = shading_context(scene_, point, ray_shadow);
+  set_bounces(context, connection.bounces);
+  ++context.bounces;
+  return context;
+}
+
+void PathIntegrator::set_bounces(ShadingContext& context, const Bounces& bounces) {
+  context.bounces = bounces.total;
+  context.diffuse_bounces = bounces.diffuse;
+  context.glossy_bounces = bounces.glossy;
+  context.transmission_bounces = bounces.transmission;
+  context.transparent_bounces = bounces.transparent;
 }
 
 Color& PathIntegrator::sum_of(Destination destination, PixelSample& sample) {
@@ -248,7 +262,7 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
       is_filed(path) ? recorder_.file(path.sample, path.bounces.total,
                                       [&] { return light_shares(bsdf, -ray.direction, light->wi, light->kinds); })
                      : PassRecorder::unfiled;
-  const Connection connection{path.sample, radiance, path.bounces.transparent, most, path.destination, filing};
+  const Connection connection{path.sample, radiance, path.bounces, most, path.destination, filing};
   if (!light->casts_shadows) return add_connection(connection, sample);
   append_result(shadow_rays_, [&] { return spawn_shadow_ray(scene_, point, light->wi, light->distance, ray.time); });
   if (path.destination == Destination::catcher_unlit) shadow_rays_.back().kinds = ray_catcher;
@@ -321,6 +335,8 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
   path.bsdf_pdf = scattered->pdf;
   path.is_specular = scattered->is_delta;
   path.is_camera_ray = false;
+  path.is_translucent = scattered->is_translucent;
+  path.length += point.t;
   path.shows_film = path.shows_film && scattered->kind == ScatterKind::transmission &&
                     scene_.settings.is_glass_transparent &&
                     bsdf.transmission_alpha() <= scene_.settings.transparent_glass_roughness;
@@ -394,9 +410,9 @@ void PathIntegrator::connect_through_transparency(std::span<PixelSample> samples
         add_connection(connection, samples[connection.sample]);
         continue;
       }
-      if (++connection.transparent_bounces > scene_.settings.transparent_bounces) continue;
+      if (++connection.bounces.transparent > scene_.settings.transparent_bounces) continue;
       const SurfacePoint point = surface_point_at(scene_, ray, hits_[i]);
-      connection.radiance *= transparency_at(scene_, point, -ray.direction, shading_context(scene_, point, ray_shadow));
+      connection.radiance *= transparency_at(scene_, point, -ray.direction, shadow_context(connection, point));
       if (is_black(connection.radiance)) continue;
       continue_behind(ray, hits_[i], point);
       shadow_rays_[kept] = ray;

@@ -32,11 +32,13 @@ class PathIntegrator final : public Integrator {
     Color throughput{1.0f};
     Bounces bounces = {};
     Vec3f lit_side = {};         // of the last scattering, as light was chosen for it: see LitPoint
+    float length = 0;            // of all rays before this one, metres
     float bsdf_pdf = 0;          // of the last scattering's direction, over solid angle
     bool is_specular = true;     // no light sample could have found this ray (a camera ray, or after a delta lobe)
     bool is_last = false;        // only what the next surface emits still counts, also behind transparent ones
     bool ends_at_panes = false;  // at transparent surfaces, too, if it is the last
     bool is_camera_ray = true;
+    bool is_translucent = false;  // the last scattering
     Destination destination = Destination::picture;
     bool shows_film = true;      // holes that it meets are holes in the picture
     float least_pdf = infinity;  // of all scatterings' densities
@@ -45,7 +47,7 @@ class PathIntegrator final : public Integrator {
   struct Connection {
     std::uint32_t sample;
     Color radiance;           // if nothing is in the way
-    int transparent_bounces;  // before it
+    Bounces bounces;  // before it
     float limit;              // clamps the radiance, as in clamp_light()
     Destination destination;
     std::uint32_t filing;  // in the passes: PassRecorder's
@@ -58,6 +60,9 @@ class PathIntegrator final : public Integrator {
 
   // `ray` is the one that the path came by, up to the surface.
   [[nodiscard]] ShadingContext context_of(const Path& path, const Ray& ray, const SurfacePoint& point) const;
+  // Blender counts the bounce that a shadow ray stands for.
+  [[nodiscard]] ShadingContext shadow_context(const Connection& connection, const SurfacePoint& point) const;
+  static void set_bounces(ShadingContext& context, const Bounces& bounces);
   [[nodiscard]] static Color& sum_of(Destination destination, PixelSample& sample);
   static void cut_hole(const Path& path, Color share, PixelSample& sample);
   void add_light(const Path& path, Color radiance, PixelSample& sample, bool is_environment = false);

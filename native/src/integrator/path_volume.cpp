@@ -249,7 +249,7 @@ void PathIntegrator::sample_lights_in_media(Path& path, const Ray& ray, const Me
   const std::uint32_t filing =
       is_filed(path) ? recorder_.file(path.sample, path.bounces.total, [] { return light_shares(ScatterKind::volume); })
                      : PassRecorder::unfiled;
-  const Connection connection{path.sample, radiance, path.bounces.transparent, most, path.destination, filing};
+  const Connection connection{path.sample, radiance, path.bounces, most, path.destination, filing};
   if (!light->casts_shadows) return add_connection(connection, sample);
   const bool is_unlit = path.destination == Destination::catcher_unlit;
   shadow_rays_.push_back(
@@ -275,7 +275,8 @@ bool PathIntegrator::scatter_in_media(Path& path, Ray& ray, float distance) {
                          is_unlit ? std::uint32_t{ray_catcher} : ray_kind(ScatterKind::volume), ray.time);
   path.lit_side = Vec3f(0.0f);
   path.bsdf_pdf = phase.pdf;
-  path.is_specular = path.is_camera_ray = path.shows_film = false;
+  path.is_specular = path.is_camera_ray = path.is_translucent = path.shows_film = false;
+  path.length += distance;
   path.least_pdf = std::min(path.least_pdf, phase.pdf);
   return survives_roulette(path);
 }
@@ -308,9 +309,9 @@ void PathIntegrator::connect_through_media(std::span<PixelSample> samples) {
       const PreparedMaterial& material = scene_.material_of(point);
       connection.radiance *= transmittance(extinction, point.t - ray.t_min);
       if (!material.is_boundary) {
-        if (++connection.transparent_bounces > scene_.settings.transparent_bounces) continue;
+        if (++connection.bounces.transparent > scene_.settings.transparent_bounces) continue;
         connection.radiance *=
-            transparency_at(scene_, point, -ray.direction, shading_context(scene_, point, ray_shadow));
+            transparency_at(scene_, point, -ray.direction, shadow_context(connection, point));
       }
       if (is_black(connection.radiance)) continue;
       cross_surface(media, point);

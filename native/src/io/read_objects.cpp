@@ -109,6 +109,7 @@ void read_object(SceneReader& reader, const JsonValue& object) {
   if (const auto visibility = object.find("visibility")) instance.visibility = read_visibility(*visibility);
   read_optional(object, "holdout", instance.is_holdout);
   read_optional(object, "color", instance.info.color);
+  read_optional(object, "alpha", instance.info.alpha);
   read_optional(object, "random", instance.info.random);
   read_optional(object, "shadow_catcher", instance.is_shadow_catcher);
   read_optional(object, "shadow_terminator_offset", instance.shadow_terminator_offset);

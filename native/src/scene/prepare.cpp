@@ -173,6 +173,18 @@ std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::u
   return shines ? std::optional(std::move(result)) : std::nullopt;
 }
 
+void set_window(PreparedScene& prepared, const Camera& camera, Vec2i film_size) {
+  const auto set = [&](const CameraBase& flat, bool is_perspective) {
+    prepared.window = CameraWindow{flat.window_min, flat.window_max - flat.window_min, is_perspective};
+  };
+  if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) set(*perspective, true);
+  if (const auto* orthographic = std::get_if<OrthographicCamera>(&camera)) set(*orthographic, false);
+  const Vec2f middle{static_cast<float>(film_size.x) * 0.5f, static_cast<float>(film_size.y) * 0.5f};
+  const RayDifferentials change = prepared.view.differentials(middle);
+  prepared.pixel_width = (length(change.origin_dx) + length(change.origin_dy)) * 0.5f;
+  prepared.pixel_spread = (length(change.direction_dx) + length(change.direction_dy)) * 0.5f;
+}
+
 }  // namespace
 
 PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous, PrepareOptions options) {
@@ -185,6 +197,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   prepared.moving_camera = MovingCamera(*scene.camera, film_size);
   prepared.has_motion = prepared.moving_camera.is_moving();
   prepared.world_to_camera = prepared.view.world_to_camera();
+  set_window(prepared, *scene.camera, film_size);
   prepared.shutter = Shutter(scene.settings.shutter_curve);
   prepared.settings = scene.settings;
   prepared.textures = scene.textures;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "base/progress.h"
@@ -37,6 +38,9 @@ struct PreparedScene {
   CameraView view;             // of a camera that stands still
   MovingCamera moving_camera;  // of one that moves
   TransformD world_to_camera;  // when the shutter opens; z points where the camera looks
+  std::optional<CameraWindow> window;
+  // How wide a pixel in the middle is at the camera, and how much wider with each metre.
+  float pixel_width = 0, pixel_spread = 0;
   Shutter shutter;             // for what moves
   RenderSettings settings;
   std::vector<Shape> shapes;

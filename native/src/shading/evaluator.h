@@ -17,7 +17,14 @@ namespace basicrt {
 // Of an object, for Blender's Object Info.
 struct ObjectInfo {
   Color color{1.0f};
+  float alpha = 1;
   float random = 0;
+};
+
+// The part of the plane that the picture shows: where z = 1 for a perspective camera, any across z for an orthographic one.
+struct CameraWindow {
+  Vec2f min{-1.0f, -1.0f}, size{2.0f, 2.0f};
+  bool is_perspective = true;
 };
 
 // What surrounds a point that is shaded. All of it may be missing: then it counts as zero.
@@ -26,8 +33,11 @@ struct ShadingContext {
   const Placement* placement = nullptr;
   const ObjectInfo* object = nullptr;
   const TransformD* world_to_camera = nullptr;  // z points where the camera looks
+  const CameraWindow* window = nullptr;          // none of a panorama
+  float footprint = 0;                           // how wide the ray is there, metres; 0 is unknown
   int object_index = 0, material_index = 0;
   std::uint32_t ray_kinds = 0;  // RayKind bits
+  bool is_singular_ray = false, is_translucent_ray = false;  // it left a mirror or smooth glass; a translucent shader
   int bounces = 0, diffuse_bounces = 0, glossy_bounces = 0, transmission_bounces = 0, transparent_bounces = 0;
 };
 

@@ -121,6 +121,7 @@ struct MetallicShader {
   NumberInput anisotropy = 0.0f, rotation = 0.0f;
   TangentKind tangent = TangentKind::uv;
   NumberInput thin_film_thickness = 0.0f, thin_film_ior = 1.33f;
+  ColorInput normal{Vec3f(0.0f)};
 
   [[nodiscard]] bool is_stretched() const { return may_differ_from_zero(anisotropy); }
   static constexpr std::string_view kind = "metallic";
@@ -137,6 +138,7 @@ struct MetallicShader {
         field("anisotropy", &M::anisotropy, "above 0 smoother across the tangent", within(0, 1)),
         field("rotation", &M::rotation, rotation_doc),
         field("tangent", &M::tangent, tangent_doc),
+        field("normal", &M::normal, normal_doc),
         field("thin_film_thickness", &M::thin_film_thickness, film_thickness_doc, at_least(0)),
         field("thin_film_ior", &M::thin_film_ior, "refractive index of the film", above(0))};
   }
@@ -195,9 +197,11 @@ struct TransparentShader {
 
 struct TranslucentShader {
   ColorInput color;
+  ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "translucent";
   static constexpr auto fields() {
-    return std::tuple{field("color", &TranslucentShader::color, "what goes through, spread evenly", within(0, 1))};
+    return std::tuple{field("color", &TranslucentShader::color, "what goes through, spread evenly", within(0, 1)),
+                      field("normal", &TranslucentShader::normal, normal_doc)};
   }
 };
 
@@ -210,11 +214,13 @@ struct SheenShader {
   ColorInput color;
   NumberInput roughness = 0.5f;
   SheenModel model = SheenModel::microfiber;
+  ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "sheen";
   static constexpr auto fields() {
     return std::tuple{field("color", &SheenShader::color, "tint", within(0, 1)),
                       field("roughness", &SheenShader::roughness, "how far from grazing it is seen", within(0, 1)),
-                      field("model", &SheenShader::model, "microfiber or ashikhmin")};
+                      field("model", &SheenShader::model, "microfiber or ashikhmin"),
+                      field("normal", &SheenShader::normal, normal_doc)};
   }
 };
 
@@ -227,12 +233,14 @@ struct ToonShader {
   ColorInput color;
   ToonComponent component = ToonComponent::diffuse;
   NumberInput size = 0.5f, smooth = 0.0f;
+  ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "toon";
   static constexpr auto fields() {
     return std::tuple{field("color", &ToonShader::color, "tint", within(0, 1)),
                       field("component", &ToonShader::component, "diffuse: around the normal; glossy: the reflection"),
                       field("size", &ToonShader::size, "of the spot, in right angles", within(0, 1)),
-                      field("smooth", &ToonShader::smooth, "width of the soft rim, in right angles", within(0, 1))};
+                      field("smooth", &ToonShader::smooth, "width of the soft rim, in right angles", within(0, 1)),
+                      field("normal", &ToonShader::normal, normal_doc)};
   }
 };
 
@@ -271,7 +279,7 @@ struct PrincipledShader {
   NumberInput coat_weight = 0.0f, coat_roughness = 0.03f, coat_ior = 1.5f;
   ColorInput coat_tint{Color(1.0f)};
   NumberInput thin_film_thickness = 0.0f, thin_film_ior = 1.33f;
-  ColorInput normal{Vec3f(0.0f)};
+  ColorInput normal{Vec3f(0.0f)}, coat_normal{Vec3f(0.0f)};
 
   [[nodiscard]] bool is_stretched() const { return may_differ_from_zero(anisotropic); }
   static constexpr std::string_view kind = "principled";
@@ -305,6 +313,7 @@ struct PrincipledShader {
         field("coat_ior", &PrincipledShader::coat_ior, "refractive index of the coat", at_least(1)),
         field("coat_tint", &PrincipledShader::coat_tint, "what the coat lets through of light from straight above",
               within(0, 1)),
+        field("coat_normal", &PrincipledShader::coat_normal, normal_doc),
         field("thin_film_thickness", &PrincipledShader::thin_film_thickness, film_thickness_doc, at_least(0)),
         field("thin_film_ior", &PrincipledShader::thin_film_ior, "refractive index of the film", above(0))};
   }

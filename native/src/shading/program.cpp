@@ -37,8 +37,15 @@ constexpr bool reads_point = requires { Kind::reads_point; };
 
 void run(Operations operations, std::span<Vec3f> values, const Evaluator& in);
 
-// How far apart a bump looks at the height, over the ray's length.
-constexpr float footprint_share = 5e-4f;
+// Room for the values of most programs, so that nothing is allocated.
+constexpr std::size_t small_size = ProgramRun::small_size;
+
+// How far apart a bump looks at the height. Not so near that rounded positions would show.
+float bump_step(const BumpOperation& node, const Evaluator& in) {
+  constexpr float share_of_ray = 5e-4f;  // where nothing is known of pixels
+  const float footprint = in.context.footprint > 0 ? in.context.footprint : in.point.t * share_of_ray;
+  return std::max({footprint * node.filter_width, max_component(abs(in.point.position)) * 0x1p-17f, 1e-7f});
+}
 
 // The point moved along the surface: what is interpolated over the mesh and over uv changes with the position.
 SurfacePoint moved(const SurfacePoint& point, Vec3f step, const ShadingContext& context) {
@@ -63,18 +70,27 @@ SurfacePoint moved(const SurfacePoint& point, Vec3f step, const ShadingContext& 
   return result;
 }
 
-Vec3f run_bump(const BumpOperation& node, Operations operations, const Evaluator& in) {
+Vec3f run_one(const Operation& operation, Operations before, const Evaluator& in);
+
+Vec3f run_bump(const BumpOperation& node, Operations before, const Evaluator& in) {
   HeightChange height{.here = in(node.height), .at_dx = 0, .at_dy = 0, .dpdx = {}, .dpdy = {}};
-  const Frame frame = make_frame(in.point.geometric_normal);
-  const float step = std::max(in.point.t, 1e-3f) * footprint_share;
+  height.at_dx = height.at_dy = height.here;
+  const Vec3f normal = in.point.geometric_normal * (in.point.is_backfacing ? -1.0f : 1.0f);
+  const Frame frame = make_frame(normal, cross(Vec3f(1.0f), normal));
+  const float step = bump_step(node, in);
   height.dpdx = frame.tangent * step;
   height.dpdy = frame.bitangent * step;
+  if (!node.height.is_varying()) return bumped_normal(node, in, height);
+
   const std::size_t count = node.height.operation.is_valid() ? node.height.operation.index + 1 : 0;
-  std::vector<Vec3f> values(count);
+  std::array<Vec3f, small_size> few;
+  std::vector<Vec3f> many(count > small_size ? count : 0);
+  const std::span<Vec3f> values = many.empty() ? std::span<Vec3f>(few) : std::span<Vec3f>(many);
   const auto height_at = [&](Vec3f change) {
     const SurfacePoint point = moved(in.point, change, in.context);
     const Evaluator there(values, in.textures, in.context, point, in.wo);
-    run(operations.first(count), values, there);
+    for (const std::uint32_t i : node.steps) values[i] = run_one(before[i], before.first(i), there);
+    if (node.steps.empty()) run(before.first(count), values, there);
     return there(node.height);
   };
   height.at_dx = height_at(height.dpdx);
@@ -114,6 +130,7 @@ class Compiler {
     mark_node(material_.surface, is_node_live);
     mark_node(material_.volume, is_node_live);
     drop_dead_operations(is_node_live);
+    find_steps();
   }
 
  private:
@@ -216,6 +233,24 @@ class Compiler {
     for (std::size_t i = 0; i < material_.nodes.size(); ++i)
       std::visit([&](auto& shader) { for_each_input(shader, move); }, material_.nodes[i]);
     material_.operations = std::move(kept);
+  }
+
+  void find_steps() {
+    for (Operation& operation : material_.operations) {
+      auto* bump = std::get_if<BumpOperation>(&operation);
+      if (!bump || !bump->height.operation.is_valid()) continue;
+      std::vector<bool> is_needed(bump->height.operation.index + 1);
+      is_needed.back() = true;
+      for (std::size_t i = is_needed.size(); i-- > 0;) {
+        const auto mark = [&](const auto& input, const Range&) {
+          if (input.operation.is_valid()) is_needed[input.operation.index] = true;
+        };
+        if (is_needed[i]) std::visit([&](const auto& node) { for_each_input(node, mark); }, material_.operations[i]);
+      }
+      bump->steps.clear();
+      for (std::uint32_t i = 0; i < is_needed.size(); ++i)
+        if (is_needed[i]) bump->steps.push_back(i);
+    }
   }
 
   Material& material_;

@@ -23,10 +23,11 @@ class ProgramRun {
   ProgramRun(const ProgramRun&) = delete;
   ProgramRun& operator=(const ProgramRun&) = delete;
 
+  static constexpr std::size_t small_size = 96;
+
   [[nodiscard]] const Evaluator& values() const { return evaluator_; }
 
  private:
-  static constexpr std::size_t small_size = 96;
   std::array<Vec3f, small_size> few_;
   std::vector<Vec3f> many_;  // instead, of a long program
   Evaluator evaluator_;

@@ -3,8 +3,10 @@
 #include "shading/surface_operations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "math/frame.h"
 #include "math/ray.h"
 #include "shading/evaluator.h"
 
@@ -36,6 +38,15 @@ Vec3f camera_position(const Evaluator& in) {
   return in.context.world_to_camera ? in.context.world_to_camera->point(in.point.position) : in.point.position;
 }
 
+// From 0 to 1 over the picture.
+Vec3f window_position(const Evaluator& in) {
+  if (!in.context.window) return Vec3f(0.0f);
+  const CameraWindow& window = *in.context.window;
+  const Vec3f place = camera_position(in);
+  const float scale = window.is_perspective ? 1 / place.z : 1;
+  return {(place.x * scale - window.min.x) / window.size.x, (place.y * scale - window.min.y) / window.size.y, 0};
+}
+
 Vec3f mirrored(Vec3f normal, Vec3f wo) { return normal * (2 * dot(normal, wo)) - wo; }
 
 Vec3f flag(bool is_set) { return Vec3f(is_set ? 1.0f : 0.0f); }
@@ -60,13 +71,66 @@ Vec3f interpolate(const MeshAttribute& attribute, const Mesh& mesh, const Surfac
   return value(0) * (1 - share.x - share.y) + value(1) * share.x + value(2) * share.y;
 }
 
+Vec3f normal_to_world(Vec3f normal, const Evaluator& in) {
+  if (!in.context.placement) return normalized(normal);
+  return normalized(Vec3f(in.context.placement->world_to_object.transposed_vector(Vec3d(normal))));
+}
+
+Vec3f normal_to_object(Vec3f normal, const Evaluator& in) {
+  if (!in.context.placement) return normal;
+  return normalized(Vec3f(in.context.placement->object_to_world.transposed_vector(Vec3d(normal))));
+}
+
+// In object space, of the length that interpolation leaves it: shorter between normals that differ.
+Vec3f interpolated_normal(const Evaluator& in) {
+  const SurfacePoint& point = in.point;
+  if (!in.context.mesh || in.context.mesh->corner_normals.empty()) return normal_to_object(point.geometric_normal, in);
+  const auto corner = [&](std::size_t i) {
+    return in.context.mesh->corner_normal_at(std::size_t{point.primitive} * 3 + i, point.time);
+  };
+  const Vec2f share = point.barycentrics;
+  return corner(0) * (1 - share.x - share.y) + corner(1) * share.x + corner(2) * share.y;
+}
+
+// How long a metre of the object's is in the world, along the normal.
+float stretch(const Evaluator& in) {
+  if (!in.context.placement) return 1;
+  const Vec3f normal = in.point.shading_normal, local = normal_to_object(normal, in);
+  return dot(Vec3f(in.context.placement->object_to_world.vector(Vec3d(local))), normal);
+}
+
+// Of a pixel on the surface, as it is seen.
+float pixel_size(const Evaluator& in) {
+  const Vec3f normal = in.point.geometric_normal * side(in);
+  const Frame frame = make_frame(normal, cross(Vec3f(1.0f), normal));
+  const auto seen = [&](Vec3f along) { return length(along - in.wo * dot(along, in.wo)); };
+  return in.context.footprint * 0.5f * (seen(frame.tangent) + seen(frame.bitangent));
+}
+
+// Zero where there are no tangents.
+Vec3f from_tangents(Vec3f encoded, Vec3f tangent, float sign, const Evaluator& in) {
+  if (length_squared(tangent) == 0) return Vec3f(0.0f);
+  const Vec3f normal = interpolated_normal(in), across = cross(normal, tangent) * sign;
+  return normal_to_world(tangent * encoded.x + across * encoded.y + normal * encoded.z, in);
+}
+
+Vec3f from_uv_tangents(Vec3f encoded, const Evaluator& in) {
+  const auto& derivatives = in.point.derivatives;
+  if (!derivatives || length_squared(derivatives->dpdu) == 0) return Vec3f(0.0f);
+  const Vec3f own = in.point.shading_normal;
+  const Vec3f tangent = normalized(derivatives->dpdu - own * dot(own, derivatives->dpdu)), across = cross(own, tangent);
+  const float sign = dot(across, derivatives->dpdv) < 0 ? -1.0f : 1.0f;
+  return normalized(tangent * encoded.x + across * (sign * encoded.y) + own * encoded.z);
+}
+
 }  // namespace
 
 Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
   const SurfacePoint& point = in.point;
   const ShadingContext& context = in.context;
   const auto is_ray = [&](std::uint32_t kinds) { return flag((context.ray_kinds & kinds) != 0); };
-  const ObjectInfo object = context.object ? *context.object : ObjectInfo{};
+  static const ObjectInfo no_object;
+  const ObjectInfo& object = context.object ? *context.object : no_object;
   switch (node.value) {
     case SurfaceValue::position:
       return point.position;
@@ -87,11 +151,11 @@ Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
     case SurfaceValue::object_position:
       return object_position(in);
     case SurfaceValue::object_normal:
-      return context.placement
-                 ? normalized(Vec3f(context.placement->object_to_world.transposed_vector(Vec3d(viewed_normal(in)))))
-                 : viewed_normal(in);
+      return normal_to_object(viewed_normal(in), in);
     case SurfaceValue::camera_position:
       return camera_position(in);
+    case SurfaceValue::window:
+      return window_position(in);
     case SurfaceValue::reflection:
       return mirrored(viewed_normal(in), in.wo);
     case SurfaceValue::tangent:
@@ -100,6 +164,8 @@ Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
       return context.placement ? Vec3f(context.placement->object_to_world.column(3)) : Vec3f(0.0f);
     case SurfaceValue::object_color:
       return object.color;
+    case SurfaceValue::object_alpha:
+      return number(object.alpha);
     case SurfaceValue::object_index:
       return number(static_cast<float>(context.object_index));
     case SurfaceValue::object_random:
@@ -109,7 +175,7 @@ Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
     case SurfaceValue::view_vector:
       return normalized(camera_position(in));
     case SurfaceValue::view_depth:
-      return number(std::abs(camera_position(in).z));
+      return number(camera_position(in).z);
     case SurfaceValue::view_distance:
       return number(length(camera_position(in)));
     case SurfaceValue::is_camera_ray:
@@ -117,15 +183,17 @@ Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
     case SurfaceValue::is_shadow_ray:
       return is_ray(ray_shadow);
     case SurfaceValue::is_diffuse_ray:
-      return is_ray(ray_diffuse);
+      return flag((context.ray_kinds & ray_diffuse) != 0 || context.is_translucent_ray);
     case SurfaceValue::is_glossy_ray:
-      return is_ray(ray_glossy);
+      return flag((context.ray_kinds & (ray_glossy | ray_transmission)) != 0 && !context.is_translucent_ray);
     case SurfaceValue::is_transmission_ray:
       return is_ray(ray_transmission);
     case SurfaceValue::is_reflection_ray:
       return is_ray(ray_diffuse | ray_glossy);
     case SurfaceValue::is_volume_ray:
       return is_ray(ray_volume);
+    case SurfaceValue::is_singular_ray:
+      return flag(context.is_singular_ray);
     case SurfaceValue::ray_length:
       return number(point.t);
     case SurfaceValue::ray_depth:
@@ -144,9 +212,9 @@ Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
 
 Vec3f eval(const AttributeOperation& node, const Evaluator& in) {
   const Mesh* mesh = in.context.mesh;
-  if (!mesh) return Vec3f(0.0f);
+  if (!mesh) return Vec3f(node.missing);
   const auto found = std::ranges::find(mesh->attributes, node.name, &MeshAttribute::name);
-  return found == mesh->attributes.end() ? Vec3f(0.0f) : interpolate(*found, *mesh, in.point);
+  return found == mesh->attributes.end() ? Vec3f(node.missing) : interpolate(*found, *mesh, in.point);
 }
 
 Vec3f eval(const FresnelOperation& node, const Evaluator& in) {
@@ -173,26 +241,46 @@ Vec3f eval(const FresnelOperation& node, const Evaluator& in) {
 
 Vec3f eval(const NormalMapOperation& node, const Evaluator& in) {
   const Vec3f encoded = in(node.color) * 2 - Vec3f(1.0f);
-  const float strength = std::max(in(node.strength), 0.0f);
-  const Vec3f own = in.point.shading_normal;
   Vec3f normal;
-  if (node.space == NormalMapSpace::tangent) {
-    const auto& derivatives = in.point.derivatives;
-    if (!derivatives || length_squared(derivatives->dpdu) == 0) return own * side(in);
-    const Vec3f tangent = normalized(derivatives->dpdu - own * dot(own, derivatives->dpdu));
-    const Vec3f across = cross(own, tangent);
-    const float hand = dot(across, derivatives->dpdv) < 0 ? -1.0f : 1.0f;
-    // Turned towards the surface's own normal before the vectors are added up.
-    normal = normalized(tangent * (encoded.x * strength) + across * (hand * encoded.y * strength) +
-                        own * lerp(1.0f, encoded.z, std::min(strength, 1.0f)));
-  } else {
-    normal = encoded;
-    if (node.space == NormalMapSpace::object && in.context.placement)
-      normal = Vec3f(in.context.placement->world_to_object.transposed_vector(Vec3d(encoded)));
-    normal = normalized(normal);
-    if (strength != 1) normal = normalized(own + (normal - own) * strength);
+  switch (node.space) {
+    case NormalMapSpace::tangent:
+      normal = node.tangent.is_varying() ? from_tangents(encoded, in(node.tangent), in(node.tangent_sign), in)
+                                         : from_uv_tangents(encoded, in);
+      break;
+    case NormalMapSpace::object:
+      normal = normal_to_world(encoded, in);
+      break;
+    case NormalMapSpace::world:
+      normal = normalized(encoded);
+      break;
   }
-  return (length_squared(normal) == 0 ? own : normal) * side(in);
+  const Vec3f own = viewed_normal(in);
+  if (length_squared(normal) == 0) return own;
+  const float strength = std::max(in(node.strength), 0.0f);
+  const Vec3f mixed = normalized(lerp(own, normal * side(in), strength));
+  return length_squared(mixed) == 0 ? own : mixed;
+}
+
+Vec3f eval(const TangentOperation& node, const Evaluator& in) {
+  const Vec3f normal = viewed_normal(in);
+  return cross(normal, normalized(cross(normal_to_world(in(node.direction), in), normal)));
+}
+
+Vec3f eval(const WireframeOperation& node, const Evaluator& in) {
+  const Mesh* mesh = in.context.mesh;
+  const Placement* placement = in.context.placement;
+  if (!mesh || !placement) return Vec3f(0.0f);
+  const float width = in(node.size) * 0.5f * (node.is_in_pixels ? pixel_size(in) : 1);
+  const auto corner = [&](int i) {
+    return Vec3f(placement->object_to_world.point(Vec3d(mesh->position_at(in.point.primitive, i, in.point.time))));
+  };
+  const std::array corners = {corner(0), corner(1), corner(2)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3f edge = corners[(i + 1) % 3] - corners[i];
+    const Vec3f area = cross(edge, in.point.position - corners[i]);
+    if (length_squared(area) < length_squared(edge) * width * width) return Vec3f(1.0f);
+  }
+  return Vec3f(0.0f);
 }
 
 Vec3f bumped_normal(const BumpOperation& node, const Evaluator& in, const HeightChange& height) {
@@ -201,7 +289,7 @@ Vec3f bumped_normal(const BumpOperation& node, const Evaluator& in, const Height
   const Vec3f along_x = cross(height.dpdy, normal), along_y = cross(normal, height.dpdx);
   const float area = dot(height.dpdx, along_x);
   const Vec3f gradient = along_x * (height.at_dx - height.here) + along_y * (height.at_dy - height.here);
-  const float scale = in(node.distance) * (node.is_inverted ? -1.0f : 1.0f),
+  const float scale = in(node.distance) * (node.is_inverted ? -1.0f : 1.0f) * (node.is_local ? stretch(in) : 1.0f),
               strength = std::max(in(node.strength), 0.0f);
   const float sign = area < 0 ? -1.0f : 1.0f;
   const Vec3f raised = normalized(normal * std::abs(area) - gradient * (sign * scale));

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "base/describe.h"
 #include "shading/inputs.h"
@@ -26,10 +27,12 @@ enum class SurfaceValue : std::uint8_t {
   object_position,
   object_normal,
   camera_position,
+  window,
   reflection,
   tangent,
   object_location,
   object_color,
+  object_alpha,
   object_index,
   object_random,
   material_index,
@@ -43,6 +46,7 @@ enum class SurfaceValue : std::uint8_t {
   is_transmission_ray,
   is_reflection_ray,
   is_volume_ray,
+  is_singular_ray,
   ray_length,
   ray_depth,
   diffuse_depth,
@@ -62,10 +66,12 @@ inline constexpr std::array enum_names<SurfaceValue> = std::to_array<std::string
                                                                                         "object_position",
                                                                                         "object_normal",
                                                                                         "camera_position",
+                                                                                        "window",
                                                                                         "reflection",
                                                                                         "tangent",
                                                                                         "object_location",
                                                                                         "object_color",
+                                                                                        "object_alpha",
                                                                                         "object_index",
                                                                                         "object_random",
                                                                                         "material_index",
@@ -79,6 +85,7 @@ inline constexpr std::array enum_names<SurfaceValue> = std::to_array<std::string
                                                                                         "is_transmission_ray",
                                                                                         "is_reflection_ray",
                                                                                         "is_volume_ray",
+                                                                                        "is_singular_ray",
                                                                                         "ray_length",
                                                                                         "ray_depth",
                                                                                         "diffuse_depth",
@@ -97,15 +104,17 @@ struct SurfaceOperation {
   }
 };
 
-// A named attribute of the mesh, interpolated; black where it has none of that name.
+// A named attribute of the mesh, interpolated.
 struct AttributeOperation {
   std::string name;
+  float missing = 0;
 
   bool operator==(const AttributeOperation&) const = default;
   static constexpr std::string_view kind = "attribute";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("name", &AttributeOperation::name, "of the mesh's attribute")};
+    return std::tuple{field("name", &AttributeOperation::name, "of the mesh's attribute"),
+                      field("missing", &AttributeOperation::missing, "where the mesh has none of that name")};
   }
 };
 
@@ -134,11 +143,13 @@ template <>
 inline constexpr std::array enum_names<NormalMapSpace> =
     std::to_array<std::string_view>({"tangent", "object", "world"});
 
-// A normal in world space from a colour; tangents are those of uv.
+// A normal in world space from a colour.
 struct NormalMapOperation {
   ColorInput color{Vec3f(0.5f, 0.5f, 1.0f)};
   NumberInput strength = 1.0f;
   NormalMapSpace space = NormalMapSpace::tangent;
+  ColorInput tangent{Vec3f(0.0f)};
+  NumberInput tangent_sign = 1.0f;
 
   bool operator==(const NormalMapOperation&) const = default;
   static constexpr std::string_view kind = "normal_map";
@@ -146,7 +157,37 @@ struct NormalMapOperation {
   static constexpr auto fields() {
     return std::tuple{field("color", &NormalMapOperation::color, "the normal, halved and moved by a half"),
                       field("strength", &NormalMapOperation::strength, "0 is the surface's own normal", at_least(0)),
-                      field("space", &NormalMapOperation::space, "tangent, object or world")};
+                      field("space", &NormalMapOperation::space, "tangent, object or world"),
+                      field("tangent", &NormalMapOperation::tangent,
+                            "an operation that gives the colour's x axis, object space; else it is that of uv"),
+                      field("tangent_sign", &NormalMapOperation::tangent_sign,
+                            "the y axis is so often the normal cross the tangent")};
+  }
+};
+
+// Along the surface, as near as can be to a direction that turns as the object's normals do.
+struct TangentOperation {
+  ColorInput direction{Vec3f(0.0f)};
+
+  bool operator==(const TangentOperation&) const = default;
+  static constexpr std::string_view kind = "tangent";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return std::tuple{field("direction", &TangentOperation::direction, "object space; zero gives zero")};
+  }
+};
+
+// 1 near the edges of the mesh's triangles, else 0.
+struct WireframeOperation {
+  NumberInput size = 0.01f;
+  bool is_in_pixels = false;
+
+  bool operator==(const WireframeOperation&) const = default;
+  static constexpr std::string_view kind = "wireframe";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return std::tuple{field("size", &WireframeOperation::size, "width of the edges, metres"),
+                      field("in_pixels", &WireframeOperation::is_in_pixels, "the size is in pixels")};
   }
 };
 
@@ -157,6 +198,10 @@ struct BumpOperation {
   NumberInput strength = 1.0f, distance = 1.0f;
   ColorInput normal{Vec3f(0.0f)};
   bool is_inverted = false;
+  float filter_width = 1;
+  bool is_local = false;
+  // The operations that the height needs, in order: compile() finds them. None: all that come before.
+  std::vector<std::uint32_t> steps;
 
   bool operator==(const BumpOperation&) const = default;
   static constexpr std::string_view kind = "bump";
@@ -166,7 +211,10 @@ struct BumpOperation {
                       field("strength", &BumpOperation::strength, "0 is the normal as it was", at_least(0)),
                       field("distance", &BumpOperation::distance, "multiplies the height"),
                       field("normal", &BumpOperation::normal, "world space; zero is the surface's own"),
-                      field("invert", &BumpOperation::is_inverted, "bumps become dents")};
+                      field("invert", &BumpOperation::is_inverted, "bumps become dents"),
+                      field("filter_width", &BumpOperation::filter_width,
+                            "how far apart the height is looked at, in pixels", above(0)),
+                      field("local", &BumpOperation::is_local, "the distance is in object space")};
   }
 };
 
@@ -174,6 +222,8 @@ struct BumpOperation {
 [[nodiscard]] Vec3f eval(const AttributeOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const FresnelOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const NormalMapOperation& node, const Evaluator& in);
+[[nodiscard]] Vec3f eval(const TangentOperation& node, const Evaluator& in);
+[[nodiscard]] Vec3f eval(const WireframeOperation& node, const Evaluator& in);
 
 // How the height changes: its values here and at two points beside, which lie at dpdx and dpdy from here.
 struct HeightChange {
@@ -187,7 +237,7 @@ struct HeightChange {
   return node.value == SurfaceValue::tangent;
 }
 [[nodiscard]] inline bool needs_derivatives(const NormalMapOperation& node) {
-  return node.space == NormalMapSpace::tangent;
+  return node.space == NormalMapSpace::tangent && !node.tangent.is_varying();
 }
 [[nodiscard]] inline bool needs_derivatives(const auto& /*others*/) { return false; }
 
