@@ -277,6 +277,9 @@ class NodeView:
         node: Any = source.socket.node
         if node.bl_idname in VALUES:
             return NodeView(node, source.groups, self.translation).output_value()
+        found = output_value(self.translation, source) if node.bl_idname in OPERATIONS else None
+        if found is not None and not isinstance(found.data, basicrt.OperationRef):
+            return found.data
         self.warn(
             f'{identifier} is linked to "{compat.node_name(node)}", which is not supported: its own value is used'
         )
