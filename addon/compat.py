@@ -134,6 +134,37 @@ def shadow_terminator_shading_offset(b_object: bpy.types.Object) -> float:
     return float(getattr(getattr(data, "cycles", None), "shadow_terminator_offset", 0.0))
 
 
+def cell_hash() -> str:
+    """By which hash of the core's Voronoi operation points are where this Blender has them."""
+    return "pcg" if bpy.app.version >= (5, 0, 0) else "lookup3"
+
+
+# Linear Rec. 709 from CIE XYZ: IEC 61966-2-1, and from 5.0 on by the primaries themselves.
+REC709_FROM_XYZ = (
+    (3.2404542, -1.5371385, -0.4985314),
+    (-0.9692660, 1.8760108, 0.0415560),
+    (0.0556434, -0.2040259, 1.0572252),
+)
+_REC709_FROM_XYZ_OF_PRIMARIES = (
+    (3.2409699, -1.5373832, -0.4986108),
+    (-0.9692436, 1.8759675, 0.0415551),
+    (0.0556301, -0.2039770, 1.0569715),
+)
+
+
+def rec709_from_xyz() -> tuple[tuple[float, float, float], ...]:
+    """The matrix by which this Blender shows wavelengths; black bodies have the older one in all."""
+    is_new = bpy.app.version >= (5, 0, 0)
+    return _REC709_FROM_XYZ_OF_PRIMARIES if is_new else REC709_FROM_XYZ
+
+
+def luminance_weights() -> tuple[float, float, float]:
+    """Of red, green and blue, by the same matrix."""
+    if bpy.app.version >= (5, 0, 0):
+        return 0.2126390, 0.7151687, 0.0721923
+    return 0.2126729, 0.7151522, 0.0721750
+
+
 def light_max_bounces(light: bpy.types.Light) -> int:
     """The bounces behind which a lamp lights nothing: a setting of Cycles, which may be switched off."""
     return int(getattr(getattr(light, "cycles", None), "max_bounces", 1024))

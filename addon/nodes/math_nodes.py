@@ -7,11 +7,12 @@ from typing import Any
 
 import basicrt
 
-from .operations import Operands, Value, operation
+from .blackbody import blackbody_color, blackbody_table, wavelength_table
+from .operations import Operands, Value, as_number, operation
 
 _COMPONENTS = {"Red": "x", "Green": "y", "Blue": "z", "R": "x", "G": "y", "B": "z"}
 _COMPONENTS |= {"X": "x", "Y": "y", "Z": "z", "H": "x", "S": "y", "V": "z"}
-_TABLE_SIZE = 256  # as many entries as Cycles makes of ramps and curves
+_TABLE_SIZE = 257  # as many entries as Cycles makes of ramps and curves
 
 
 @operation("ShaderNodeMath")
@@ -50,14 +51,15 @@ def mix(of: Operands, _output: str) -> Value:
     kind = of.node.data_type
     suffix = {"FLOAT": "Float", "VECTOR": "Vector", "RGBA": "Color"}.get(kind, "Color")
     is_uniform = kind != "VECTOR" or of.node.factor_mode == "UNIFORM"
-    factor = of.vector("Factor_Float" if is_uniform else "Factor_Vector")
+    factor = of.grey("Factor_Float") if is_uniform else of.vector("Factor_Vector")
+    operand = of.grey if kind == "FLOAT" else of.vector
     return of.add(
         {"FLOAT": "number", "VECTOR": "vector"}.get(kind, "color"),
         basicrt.MixOperation(
             blend=of.node.blend_type.lower() if kind == "RGBA" else "mix",
             factor=factor,
-            a=of.vector(f"A_{suffix}"),
-            b=of.vector(f"B_{suffix}"),
+            a=operand(f"A_{suffix}"),
+            b=operand(f"B_{suffix}"),
             clamp_factor=of.node.clamp_factor,
             clamp=kind == "RGBA" and of.node.clamp_result,
         ),
@@ -71,7 +73,7 @@ def mix_rgb(of: Operands, _output: str) -> Value:
         "color",
         basicrt.MixOperation(
             blend=of.node.blend_type.lower(),
-            factor=of.vector("Fac"),
+            factor=of.grey("Fac"),
             a=of.vector("Color1"),
             b=of.vector("Color2"),
             clamp=of.node.use_clamp,
@@ -91,7 +93,8 @@ def map_range(of: Operands, _output: str) -> Value:
         "to_max": ("To Max", "To_Max_FLOAT3"),
         "steps": ("Steps", "Steps_FLOAT3"),
     }
-    inputs: dict[str, Any] = {name: of.vector(pair[is_vector]) for name, pair in names.items()}
+    operand = of.vector if is_vector else of.grey
+    inputs: dict[str, Any] = {name: operand(pair[is_vector]) for name, pair in names.items()}
     interpolation = of.node.interpolation_type.lower()
     made = basicrt.MapRangeOperation(interpolation=interpolation, clamp=of.node.clamp, **inputs)
     return of.add("vector" if is_vector else "number", made)
@@ -118,7 +121,7 @@ def color_ramp(of: Operands, output: str) -> Value:
         red, green, blue, alpha = ramp.evaluate(i / (_TABLE_SIZE - 1))
         colors += [alpha] * 3 if output == "Alpha" else [red, green, blue]
     made = basicrt.TableOperation(
-        value=of.vector("Fac"), colors=colors, interpolate=ramp.interpolation != "CONSTANT"
+        value=of.grey("Fac"), colors=colors, interpolate=ramp.interpolation != "CONSTANT"
     )
     return of.add("number" if output == "Alpha" else "color", made)
 
@@ -140,8 +143,9 @@ def curves(of: Operands, output: str) -> Value:
         y = mapping.evaluate(mapping.curves[3], x) if is_color else x
         colors += [mapping.evaluate(curve, y) for curve in used]
     source = {"ShaderNodeRGBCurve": "Color", "ShaderNodeVectorCurve": "Vector"}
+    name = source.get(of.node.bl_idname)
     made = basicrt.TableOperation(
-        value=of.vector(source.get(of.node.bl_idname, "Value")),
+        value=of.vector(name) if name else of.grey("Value"),
         factor=of.number("Fac" if of.value("Fac") is not None else "Factor", 1.0),
         colors=colors,
         minimum=low,
@@ -191,8 +195,7 @@ def invert(of: Operands, _output: str) -> Value:
 @operation("ShaderNodeRGBToBW")
 def rgb_to_bw(of: Operands, _output: str) -> Value:
     """The luminance."""
-    made = basicrt.ComponentOperation(value=of.vector("Color"), component="luminance")
-    return of.add("number", made)
+    return Value("number", as_number(of.view.translation, Value("color", of.vector("Color"))))
 
 
 @operation("ShaderNodeSeparateXYZ", "ShaderNodeSeparateRGB", "ShaderNodeSeparateHSV")
@@ -241,3 +244,46 @@ def constant_color(of: Operands, _output: str) -> Value:
     """The colour that the node shows."""
     red, green, blue, _alpha = of.node.outputs[0].default_value
     return Value("color", (float(red), float(green), float(blue)))
+
+
+@operation("ShaderNodeBlackbody")
+def blackbody(of: Operands, _output: str) -> Value:
+    """The colour of a temperature in kelvin."""
+    temperature = of.number("Temperature")
+    if isinstance(temperature, float):
+        return Value("color", blackbody_color(temperature))
+    made = basicrt.TableOperation(
+        value=of.grey("Temperature"), colors=blackbody_table(), minimum=800.0, maximum=12000.0
+    )
+    return of.add("color", made)
+
+
+@operation("ShaderNodeWavelength")
+def wavelength(of: Operands, _output: str) -> Value:
+    """The colour of a wavelength in nanometres; black outside of what is visible."""
+    nanometres = of.number("Wavelength")
+    table = basicrt.TableOperation(
+        value=of.grey("Wavelength"),
+        colors=wavelength_table(),
+        minimum=380.0,
+        maximum=780.0,
+        extrapolate=True,
+    )
+    seen = basicrt.VectorMathOperation("maximum", of.add("color", table).data, (0.0, 0.0, 0.0))
+    color = of.add("color", seen).data
+    for kind, limit in (("greater_than", 375.0), ("less_than", 780.0)):
+        inside: Any = of.add("number", basicrt.MathOperation(kind, nanometres, limit)).data
+        color = of.add("color", basicrt.VectorMathOperation("multiply", color, inside)).data
+    return Value("color", color)
+
+
+@operation("ShaderNodeNormal")
+def normal(of: Operands, output: str) -> Value:
+    """The direction that the node shows, or its cosine to another."""
+    x, y, z = of.node.outputs["Normal"].default_value
+    length = (x * x + y * y + z * z) ** 0.5 or 1.0
+    direction = x / length, y / length, z / length
+    if output == "Normal":
+        return Value("vector", direction)
+    other = of.add("vector", basicrt.VectorMathOperation("normalize", of.vector("Normal"))).data
+    return of.add("number", basicrt.VectorMathOperation("dot_product", other, direction))

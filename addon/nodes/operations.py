@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import basicrt
 
+from .. import compat
 from .graph import Place, find_socket, trace
 
 if TYPE_CHECKING:
@@ -68,6 +69,11 @@ class Operands:
         """An input as three numbers."""
         value = self.value(identifier)
         return (missing, missing, missing) if value is None else as_vector(value)
+
+    def grey(self, identifier: str, missing: float = 0.0) -> Vector:
+        """An input as a number, thrice."""
+        number = self.number(identifier, missing)
+        return (number, number, number) if isinstance(number, float) else number
 
     def is_linked(self, identifier: str) -> bool:
         """Whether something arrives at an input."""
@@ -134,11 +140,16 @@ def as_number(translation: Translation, value: Value) -> Number:
         red, green, blue = value.data
         if value.kind == "vector":
             return (red + green + blue) / 3.0
-        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+        weights = compat.luminance_weights()
+        return weights[0] * red + weights[1] * green + weights[2] * blue
     if value.kind == "number":
         return value.data
-    component = "luminance" if value.kind == "color" else "average"
-    made = basicrt.ComponentOperation(value=value.data, component=component)
+    made: Any
+    if value.kind == "color":
+        weights = compat.luminance_weights()
+        made = basicrt.VectorMathOperation("dot_product", value.data, weights)
+    else:
+        made = basicrt.ComponentOperation(value=value.data, component="average")
     return translation.material.add_operation(made)
 
 

@@ -3,10 +3,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
+
+import numpy as np
+from mathutils import Euler, Matrix
 
 import basicrt
 
+from .. import compat
 from .coordinate_nodes import texture_vector
 from .operations import Operands, Value, operation
 
@@ -16,13 +21,41 @@ def _dimensions(of: Operands) -> int:
 
 
 def _mapped_vector(of: Operands, default: str = "generated") -> Any:
-    """Where the texture is looked up; the node's own hidden mapping is told of."""
+    """Where the texture is looked up: its Vector, moved by the mapping of the node itself."""
+    vector = texture_vector(of, default)
     mapping = of.node.texture_mapping
-    plain = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
-    own = tuple(mapping.translation), tuple(mapping.rotation), tuple(mapping.scale)
-    if own != plain:
-        of.view.warn("its Texture Mapping is not supported and left out")
-    return texture_vector(of, default)
+    axes = mapping.mapping_x, mapping.mapping_y, mapping.mapping_z
+    if axes != ("X", "Y", "Z"):
+        picked: list[Any] = [
+            0.0
+            if axis == "NONE"
+            else of.add("number", basicrt.ComponentOperation(vector, axis.lower())).data
+            for axis in axes
+        ]
+        vector = of.add("vector", basicrt.CombineOperation(*picked)).data
+    matrix = _matrix(mapping)
+    if matrix == Matrix():
+        return vector
+    transform = np.array(matrix, np.float32)
+    moved = of.add("vector", basicrt.TransformOperation(vector=vector, transform=transform)).data
+    if mapping.vector_type != "NORMAL":
+        return moved
+    return of.add("vector", basicrt.VectorMathOperation("normalize", moved)).data
+
+
+def _matrix(mapping: Any) -> Matrix:
+    """Of a texture node's own mapping."""
+    kind = mapping.vector_type
+    # Cycles does so only for those that are inverted, but a transform of ours always has an inverse.
+    scale = [x if abs(x) >= 1e-5 else math.copysign(1e-5, x) for x in mapping.scale]
+    matrix = Euler(mapping.rotation).to_matrix().to_4x4() @ Matrix.Diagonal((*scale, 1.0))
+    if kind in ("POINT", "TEXTURE"):
+        matrix = Matrix.Translation(mapping.translation) @ matrix
+    if kind == "TEXTURE":
+        matrix.invert()
+    if kind == "NORMAL":
+        matrix = matrix.inverted().transposed()
+    return matrix
 
 
 @operation("ShaderNodeTexNoise")
@@ -67,6 +100,7 @@ def voronoi(of: Operands, output: str) -> Value | None:
         feature=of.node.feature.lower(),
         metric=of.node.distance.lower(),
         output=outputs.get(output, "distance"),
+        hash=compat.cell_hash(),
         dimensions=dimensions,
         vector=_mapped_vector(of),
         w=of.number("W"),
@@ -80,6 +114,22 @@ def voronoi(of: Operands, output: str) -> Value | None:
         normalize=of.node.normalize,
     )
     return of.add(kinds.get(output, "number"), made)
+
+
+@operation("ShaderNodeTexGabor")
+def gabor(of: Operands, output: str) -> Value:
+    """Waves of one frequency."""
+    made = basicrt.GaborOperation(
+        output=output.lower(),
+        dimensions=int(of.node.gabor_type[0]),
+        vector=_mapped_vector(of),
+        scale=of.number("Scale"),
+        frequency=of.number("Frequency"),
+        anisotropy=of.number("Anisotropy"),
+        angle=of.number("Orientation 2D"),
+        direction=of.vector("Orientation 3D"),
+    )
+    return of.add("number", made)
 
 
 @operation("ShaderNodeTexChecker")

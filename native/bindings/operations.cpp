@@ -48,6 +48,7 @@ void register_operations(py::module_& m) {
   bind_described<NoiseOperation>(m, "NoiseOperation", "Smooth noise.");
   bind_described<WhiteNoiseOperation>(m, "WhiteNoiseOperation", "A random number for each point.");
   bind_described<VoronoiOperation>(m, "VoronoiOperation", "Cells around random points.");
+  bind_described<GaborOperation>(m, "GaborOperation", "Waves of one frequency in random places.");
 }
 
 }  // namespace basicrt::bindings

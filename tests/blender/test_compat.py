@@ -9,6 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
+import numpy as np
 import pytest
 from addon import compat
 
@@ -168,3 +169,18 @@ def test_panoramas_are_properties_of_the_camera_itself() -> None:
     assert {"EQUIRECTANGULAR", "MIRRORBALL", "FISHEYE_EQUISOLID"} <= kinds
     assert ("CENTRAL_CYLINDRICAL" in kinds) == hasattr(camera, "central_cylindrical_radius")
     assert hasattr(camera, "fisheye_polynomial_k4")
+
+
+def test_cells_of_voronoi_textures_lie_elsewhere_from_5_on() -> None:
+    assert compat.cell_hash() == ("pcg" if bpy.app.version >= (5, 0, 0) else "lookup3")
+
+
+def test_spectra_are_white_where_the_matrix_has_its_white() -> None:
+    white = (0.3127 / 0.3290, 1.0, (1 - 0.3127 - 0.3290) / 0.3290)  # D65, by CIE's chromaticity
+    for row in compat.rec709_from_xyz():
+        assert sum(a * b for a, b in zip(row, white, strict=True)) == pytest.approx(1, abs=1e-3)
+
+
+def test_luminance_is_that_of_the_matrix() -> None:
+    luminance = np.linalg.inv(compat.rec709_from_xyz())[1]
+    assert compat.luminance_weights() == pytest.approx(luminance, abs=1e-6)

@@ -38,15 +38,24 @@ Color pure_hue(float hue) {
   return each(unit, Vec3f{std::abs(hue * 6 - 3) - 1, 2 - std::abs(hue * 6 - 2), 2 - std::abs(hue * 6 - 4)});
 }
 
+// Blender counts hues beyond [0, 1] as of the last sector.
 Color from_hsv(Vec3f hsv) {
-  if (hsv.y == 0) return Color(hsv.z);
-  const float hue = hsv.x - std::floor(hsv.x);
-  return ((pure_hue(hue) - Vec3f(1.0f)) * hsv.y + Vec3f(1.0f)) * hsv.z;
+  const float value = hsv.z, saturation = hsv.y, turns = hsv.x == 1 ? 0 : hsv.x * 6;
+  if (saturation == 0) return Color(value);
+  const float sector = std::floor(turns), along = turns - sector;
+  const float low = value * (1 - saturation), falling = value * (1 - saturation * along),
+              rising = value * (1 - saturation * (1 - along));
+  if (sector == 0) return {value, rising, low};
+  if (sector == 1) return {falling, value, low};
+  if (sector == 2) return {low, value, rising};
+  if (sector == 3) return {low, falling, value};
+  if (sector == 4) return {rising, low, value};
+  return {value, low, falling};
 }
 
 Vec3f to_hsl(Color c) {
-  const float largest = std::max(max_component(c), 0.0f), smallest = std::min(min_component(c), 1.0f);
-  const float lightness = std::min((largest + smallest) / 2, 1.0f), range = largest - smallest;
+  const float largest = max_component(c), smallest = min_component(c), range = largest - smallest;
+  const float lightness = std::min((largest + smallest) / 2, 1.0f);
   if (range == 0) return {0, 0, lightness};
   const float saturation = lightness > 0.5f ? range / (2 - largest - smallest) : range / (largest + smallest);
   return {hue_of(c, largest, range), saturation, lightness};
@@ -197,6 +206,7 @@ Vec3f eval(const ToneOperation& node, const Evaluator& in) {
   const float a = in(node.a), b = in(node.b);
   switch (node.change) {
     case ToneKind::gamma:
+      if (a == 0) return Color(1.0f);
       return each([&](float x) { return x > 0 ? std::pow(x, a) : x; }, color);
     case ToneKind::bright_contrast:
       return each([&](float x) { return std::max((1 + b) * x + a - b * 0.5f, 0.0f); }, color);

@@ -48,6 +48,31 @@ Lattice<N> scaled(Lattice<N> a, float scale) {
   return a;
 }
 
+template <int N>
+Lattice<N> minus(Lattice<N> a, const Lattice<N>& b) {
+  for (int i = 0; i < N; ++i) a[i] -= b[i];
+  return a;
+}
+template <int N>
+float inner(const Lattice<N>& a, const Lattice<N>& b) {
+  float sum = 0;
+  for (int i = 0; i < N; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// Calls visit(cell's offset) for all cells so many steps away or less, the first axis fastest.
+template <int N>
+void for_each_cell(int reach, auto&& visit) {
+  const int width = 2 * reach + 1;
+  int count = 1;
+  for (int i = 0; i < N; ++i) count *= width;
+  for (int index = 0; index < count; ++index) {
+    Lattice<N> offset;
+    for (int i = 0, rest = index; i < N; ++i, rest /= width) offset[i] = static_cast<float>(rest % width - reach);
+    visit(offset);
+  }
+}
+
 // Of a number without fraction; what an int can't hold becomes the least int.
 [[nodiscard]] inline std::int32_t to_whole(float number) {
   const bool fits = number >= -2147483648.0f && number < 2147483648.0f;
@@ -96,6 +121,20 @@ template <class... Numbers>
           hash_to_unit(p[3], p[2], p[1], p[0])};
 }
 
+// As many numbers in [0, 1] as the point has.
+[[nodiscard]] inline Lattice<1> hash_to_point(const Lattice<1>& p) { return {hash_to_unit(p[0])}; }
+[[nodiscard]] inline Lattice<2> hash_to_point(const Lattice<2>& p) {
+  return {hash_to_unit(p[0], p[1]), hash_to_unit(p[0], p[1], 1.0f)};
+}
+[[nodiscard]] inline Lattice<3> hash_to_point(const Lattice<3>& p) {
+  const Vec3f color = hash_to_color(p);
+  return {color.x, color.y, color.z};
+}
+[[nodiscard]] inline Lattice<4> hash_to_point(const Lattice<4>& p) {
+  return {hash_to_unit(p[0], p[1], p[2], p[3]), hash_to_unit(p[3], p[0], p[1], p[2]),
+          hash_to_unit(p[2], p[3], p[0], p[1]), hash_to_unit(p[1], p[2], p[3], p[0])};
+}
+
 // Each number of the key depends on all of them. Shifted with their sign, as Blender does.
 template <int N>
 [[nodiscard]] std::array<std::uint32_t, N> permuted_congruential(std::array<std::uint32_t, N> key) {
@@ -119,16 +158,17 @@ template <int N>
   return key;
 }
 
-// As many numbers in [0, 1] as a cell's corner has, whose coordinates are whole.
+// As many numbers in [0, 1] as a cell has coordinates, which are whole. Far away offsets count only as whole numbers.
 template <int N>
-[[nodiscard]] Lattice<N> hash_cell(const Lattice<N>& corner) {
+[[nodiscard]] Lattice<N> hash_cell(const Lattice<N>& corner, const Lattice<N>& offset = {}) {
   if constexpr (N == 1) {
-    return {hash_to_unit(corner[0])};
+    return {hash_to_unit(corner[0] + offset[0])};
   } else {
+    const auto whole = [](float number) { return static_cast<std::uint32_t>(to_whole(number)); };
     std::array<std::uint32_t, N> key;
-    for (int i = 0; i < N; ++i) key[i] = static_cast<std::uint32_t>(to_whole(corner[i]));
-    Lattice<N> hash;
+    for (int i = 0; i < N; ++i) key[i] = whole(corner[i]) + whole(offset[i]);
     key = permuted_congruential<N>(key);
+    Lattice<N> hash;
     for (int i = 0; i < N; ++i) hash[i] = static_cast<float>(key[i] & 0x7fffffffu) * (1.0f / 2147483647.0f);
     return hash;
   }
@@ -136,15 +176,15 @@ template <int N>
 
 // Three numbers in [0, 1].
 template <int N>
-[[nodiscard]] Vec3f hash_cell_to_color(const Lattice<N>& corner) {
+[[nodiscard]] Vec3f hash_cell_to_color(const Lattice<N>& corner, const Lattice<N>& offset) {
   if constexpr (N == 1) {
-    return hash_to_color(corner);
+    return hash_to_color(corner + offset);
   } else {
     const auto hash = [&] {
       if constexpr (N == 2)
-        return hash_cell(Lattice<3>{corner[0], corner[1], 0});
+        return hash_cell(Lattice<3>{corner[0], corner[1], 0}, Lattice<3>{offset[0], offset[1], 0});
       else
-        return hash_cell(corner);
+        return hash_cell(corner, offset);
     }();
     return {hash[0], hash[1], hash[2]};
   }

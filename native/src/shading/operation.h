@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "shading/color_operations.h"
+#include "shading/gabor_operation.h"
 #include "shading/math_operations.h"
 #include "shading/noise_operations.h"
 #include "shading/surface_operations.h"
@@ -21,6 +22,6 @@ using Operation =
                  MappingOperation, RotateOperation, TransformOperation, ChangeSpaceOperation, SurfaceOperation,
                  AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation, BumpOperation, ImageOperation,
                  CheckerOperation, GradientOperation, WaveOperation, MagicOperation, BrickOperation, NoiseOperation,
-                 WhiteNoiseOperation, VoronoiOperation>;
+                 WhiteNoiseOperation, VoronoiOperation, GaborOperation>;
 
 }  // namespace basicrt

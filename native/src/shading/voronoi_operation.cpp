@@ -18,6 +18,7 @@ constexpr float far_away = std::numeric_limits<float>::max();
 struct Settings {
   VoronoiFeature feature;
   VoronoiMetric metric;
+  CellHash hash;
   float exponent, randomness, smoothness;
 };
 
@@ -28,17 +29,6 @@ struct CellSample {
   Lattice<N> position{};
 };
 
-template <int N>
-Lattice<N> minus(Lattice<N> a, const Lattice<N>& b) {
-  for (int i = 0; i < N; ++i) a[i] -= b[i];
-  return a;
-}
-template <int N>
-float inner(const Lattice<N>& a, const Lattice<N>& b) {
-  float sum = 0;
-  for (int i = 0; i < N; ++i) sum += a[i] * b[i];
-  return sum;
-}
 template <int N>
 float size(const Lattice<N>& a) {
   return N == 1 ? std::abs(a[0]) : std::sqrt(inner<N>(a, a));
@@ -64,39 +54,30 @@ float distance(const Lattice<N>& a, const Lattice<N>& b, const Settings& setting
   }
 }
 
-// Calls visit(cell's offset) for all cells so many steps away or less, the first axis fastest.
-template <int N>
-void for_each_cell(int reach, auto&& visit) {
-  const int width = 2 * reach + 1;
-  int count = 1;
-  for (int i = 0; i < N; ++i) count *= width;
-  for (int index = 0; index < count; ++index) {
-    Lattice<N> offset;
-    for (int i = 0, rest = index; i < N; ++i, rest /= width) offset[i] = static_cast<float>(rest % width - reach);
-    visit(offset);
-  }
-}
-
 // The cell that a point is in.
 template <int N>
 struct Cell {
   Lattice<N> corner, local;  // the point is corner + local
   float randomness;
+  CellHash hash;
 
-  Cell(const Lattice<N>& p, float the_randomness) : randomness(the_randomness) {
+  Cell(const Lattice<N>& p, const Settings& settings) : randomness(settings.randomness), hash(settings.hash) {
     for (int i = 0; i < N; ++i) corner[i] = std::floor(p[i]), local[i] = p[i] - corner[i];
   }
-  [[nodiscard]] Lattice<N> at(const Lattice<N>& offset) const { return corner + offset; }
   // Of the cell at that offset, from this one's corner.
   [[nodiscard]] Lattice<N> feature_point(const Lattice<N>& offset) const {
-    return offset + scaled<N>(hash_cell(at(offset)), randomness);
+    const Lattice<N> point = hash == CellHash::pcg ? hash_cell(corner, offset) : hash_to_point(corner + offset);
+    return offset + scaled<N>(point, randomness);
+  }
+  [[nodiscard]] Color color(const Lattice<N>& offset) const {
+    return hash == CellHash::pcg ? hash_cell_to_color(corner, offset) : hash_to_color(corner + offset);
   }
 };
 
 // The nearest point, or the second nearest.
 template <int N>
 CellSample<N> nearest(const Lattice<N>& p, const Settings& settings) {
-  const Cell<N> cell(p, settings.randomness);
+  const Cell<N> cell(p, settings);
   struct Found {
     float distance = far_away;
     Lattice<N> offset{}, point{};
@@ -112,12 +93,12 @@ CellSample<N> nearest(const Lattice<N>& p, const Settings& settings) {
     }
   });
   const Found& found = settings.feature == VoronoiFeature::f2 ? second : first;
-  return {found.distance, hash_cell_to_color(cell.at(found.offset)), cell.corner + found.point};
+  return {found.distance, cell.color(found.offset), cell.corner + found.point};
 }
 
 template <int N>
 CellSample<N> nearest_smoothly(const Lattice<N>& p, const Settings& settings) {
-  const Cell<N> cell(p, settings.randomness);
+  const Cell<N> cell(p, settings);
   const float width = settings.smoothness;
   CellSample<N> sum;
   bool is_first = true;
@@ -130,7 +111,7 @@ CellSample<N> nearest_smoothly(const Lattice<N>& p, const Settings& settings) {
     float correction = width * share * (1 - share);
     sum.distance = lerp(sum.distance, away, share) - correction;
     correction /= 1 + 3 * width;
-    sum.color = lerp(sum.color, hash_cell_to_color(cell.at(offset)), share) - Color(correction);
+    sum.color = lerp(sum.color, cell.color(offset), share) - Color(correction);
     for (int i = 0; i < N; ++i) sum.position[i] = lerp(sum.position[i], point[i], share) - correction;
   });
   sum.position = cell.corner + sum.position;
@@ -139,7 +120,7 @@ CellSample<N> nearest_smoothly(const Lattice<N>& p, const Settings& settings) {
 
 template <int N>
 float distance_to_edge(const Lattice<N>& p, const Settings& settings) {
-  const Cell<N> cell(p, settings.randomness);
+  const Cell<N> cell(p, settings);
   if constexpr (N == 1) {
     const auto middle = [&](float a, float b) {
       return std::abs((cell.feature_point(Lattice<1>{a})[0] + cell.feature_point(Lattice<1>{b})[0]) / 2 -
@@ -166,7 +147,7 @@ float distance_to_edge(const Lattice<N>& p, const Settings& settings) {
 // Half the distance from the nearest point to the one that is nearest to that.
 template <int N>
 float sphere_radius(const Lattice<N>& p, const Settings& settings) {
-  const Cell<N> cell(p, settings.randomness);
+  const Cell<N> cell(p, settings);
   Lattice<N> closest{}, closest_offset{};
   float least = far_away;
   for_each_cell<N>(1, [&](const Lattice<N>& offset) {
@@ -255,8 +236,8 @@ Vec3f output_of(const CellSample<N>& cells, VoronoiOutput output, float scale) {
 Vec3f eval(const VoronoiOperation& node, const Evaluator& in) {
   const auto unit = [](float x) { return std::clamp(x, 0.0f, 1.0f); };
   const float scale = in(node.scale), randomness = unit(in(node.randomness));
-  const Settings settings{node.feature, node.metric, in(node.exponent), randomness,
-                          std::clamp(in(node.smoothness) / 2, 0.0f, 0.5f)};
+  const Settings settings{node.feature,      node.metric, node.hash,
+                          in(node.exponent), randomness,  std::clamp(in(node.smoothness) / 2, 0.0f, 0.5f)};
   Layers layers{std::clamp(in(node.detail), 0.0f, 15.0f), unit(in(node.roughness)), in(node.lacunarity),
                 node.is_normalized, 0};
   return with_dimensions(node.dimensions, [&]<int N>(std::integral_constant<int, N>) {

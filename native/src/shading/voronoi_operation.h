@@ -25,11 +25,15 @@ enum class VoronoiOutput : std::uint8_t { distance, color, position, w };
 template <>
 inline constexpr std::array enum_names<VoronoiOutput> =
     std::to_array<std::string_view>({"distance", "color", "position", "w"});
+enum class CellHash : std::uint8_t { pcg, lookup3 };
+template <>
+inline constexpr std::array enum_names<CellHash> = std::to_array<std::string_view>({"pcg", "lookup3"});
 
 struct VoronoiOperation {
   VoronoiFeature feature = VoronoiFeature::f1;
   VoronoiMetric metric = VoronoiMetric::euclidean;
   VoronoiOutput output = VoronoiOutput::distance;
+  CellHash hash = CellHash::pcg;
   int dimensions = 3;
   ColorInput vector{Vec3f(0.0f)};
   NumberInput w = 0.0f, scale = 5.0f, detail = 0.0f, roughness = 0.5f, lacunarity = 2.0f, smoothness = 1.0f,
@@ -43,6 +47,7 @@ struct VoronoiOperation {
     return std::tuple{field("feature", &V::feature, "f1, f2, smooth_f1, distance_to_edge or n_sphere_radius"),
                       field("metric", &V::metric, "euclidean, manhattan, chebychev or minkowski"),
                       field("output", &V::output, "distance (also the edge's, or the radius), color, position or w"),
+                      field("hash", &V::hash, "where points are: pcg as from Blender 5.0 on, or lookup3 as before"),
                       field("dimensions", &V::dimensions, "of w alone, of the vector, or of both", within(1, 4)),
                       field("vector", &V::vector, "where"),
                       field("w", &V::w, "of one and of four dimensions"),

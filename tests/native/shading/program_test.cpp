@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "bsdf/prepared_material.h"
+#include "math/constants.h"
+#include "shading/lattice.h"
 
 namespace basicrt {
 namespace {
@@ -168,6 +171,50 @@ TEST(Operations, voronoi_distance_is_that_to_its_position) {
   const float distance = value_of(cells).x;
   cells.output = VoronoiOutput::position;
   EXPECT_NEAR(length(value_of(cells) - place) * 3, distance, 1e-5f);
+}
+
+// Expected numbers: the paper's hashes (Jarzynski and Olano 2020) by whole numbers without bounds, cut to 32 bits.
+TEST(Operations, cells_are_hashed_as_signed_numbers) {
+  constexpr float most = 2147483647.0f;
+  const Lattice<2> two = hash_cell(Lattice<2>{1, -2});
+  EXPECT_FLOAT_EQ(two[0], 1240201675 / most);
+  EXPECT_FLOAT_EQ(two[1], 555059549 / most);
+  const Lattice<3> three = hash_cell(Lattice<3>{1, -2, 3});
+  EXPECT_FLOAT_EQ(three[0], 908989604 / most);
+  EXPECT_FLOAT_EQ(three[2], 792426977 / most);
+  const Lattice<4> four = hash_cell(Lattice<4>{1, -2, 3, -4});
+  EXPECT_FLOAT_EQ(four[0], 1763984726 / most);
+  EXPECT_FLOAT_EQ(four[3], 1711506339 / most);
+}
+
+TEST(Operations, voronoi_without_smoothness_is_that_of_the_nearest_point) {
+  VoronoiOperation cells{.vector = Vec3f(0.3f, 0.6f, 0.2f), .smoothness = 0.0f};
+  const Vec3f nearest = value_of(cells);
+  cells.feature = VoronoiFeature::smooth_f1;
+  EXPECT_EQ(value_of(cells), nearest);
+}
+
+TEST(Operations, gabor_value_is_the_sine_of_its_phase_times_its_intensity) {
+  for (const int dimensions : {2, 3}) {
+    GaborOperation waves{.dimensions = dimensions, .vector = Vec3f(0.3f, 0.6f, 0.2f), .anisotropy = 0.5f};
+    const float value = value_of(waves).x;
+    waves.output = GaborOutput::phase;
+    const float phase = (2 * value_of(waves).x - 1) * pi;
+    waves.output = GaborOutput::intensity;
+    EXPECT_NEAR(value_of(waves).x * std::sin(phase), 2 * value - 1, 1e-6f);
+  }
+}
+
+TEST(Operations, gamma_of_zero_is_white) {
+  EXPECT_EQ(value_of(ToneOperation{.change = ToneKind::gamma, .color = Vec3f(-1, 0, 2), .a = 0.0f}), Vec3f(1.0f));
+}
+
+TEST(Operations, hues_beyond_a_turn_are_in_the_last_sector) {
+  const auto color = [](float hue) {
+    return value_of(ConvertColorOperation{.color = Vec3f(hue, 1, 1), .from = ColorModel::hsv, .to = ColorModel::rgb});
+  };
+  EXPECT_EQ(color(1), Vec3f(1, 0, 0));
+  EXPECT_EQ(color(1.125f), Vec3f(1, 0, 0.25f));
 }
 
 }  // namespace
