@@ -36,6 +36,18 @@ class Report:
         return tuple(self._warnings)
 
 
+class HeldReport(Report):
+    """Warnings of an attempt: told only if it is taken."""
+
+    def add(self, text: str) -> None:
+        self._warnings[text] = None
+
+    def tell(self, report: Report) -> None:
+        """Give them all to a report."""
+        for text in self.warnings:
+            report.add(text)
+
+
 class _LatestWarnings:
     """What the warnings panel shows: plain text, because Blender's objects don't outlive a render."""
 

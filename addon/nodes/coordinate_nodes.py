@@ -65,9 +65,27 @@ _LIGHT_PATH = {
 }
 
 
+# What a world has instead: its points lie a metre away, in the direction that is looked at.
+_IN_WORLDS = {
+    "generated": "position",
+    "object_position": "position",
+    "object_normal": "normal",
+    "reflection": "incoming",
+}
+_NOT_IN_WORLDS = {"camera_position", "window", "view_vector", "view_depth", "view_distance"}
+
+
 def surface(of: Operands, kind: str, value: str) -> Value:
     """Something of the point that is shaded."""
+    if of.view.translation.is_world:
+        value = _IN_WORLDS.get(value, value)
     return of.add(kind, basicrt.SurfaceOperation(value=value))
+
+
+def _surface_output(of: Operands, kind: str, value: str) -> Value | None:
+    """The same, where the point has it."""
+    is_missing = of.view.translation.is_world and value in _NOT_IN_WORLDS
+    return None if is_missing else surface(of, kind, value)
 
 
 def mesh_data(of: Operands, kind: str, asked: MeshData, missing: float = 0.0) -> Value:
@@ -93,7 +111,7 @@ def texture_vector(of: Operands, default: str) -> Any:
 
 
 def _from_table(of: Operands, output: str, table: dict[str, tuple[str, str]]) -> Value | None:
-    return surface(of, *table[output]) if output in table else None
+    return _surface_output(of, *table[output]) if output in table else None
 
 
 @operation("ShaderNodeTexCoord")
@@ -111,7 +129,7 @@ def texture_coordinate(of: Operands, output: str) -> Value | None:
         place = surface(of, "vector", "position")
         matrix = np.array(of.node.object.matrix_world.inverted_safe(), np.float32)
         return of.add("vector", basicrt.TransformOperation(vector=place.data, transform=matrix))
-    return _uv(of, "") if output == "UV" else surface(of, "vector", _COORDINATES[output])
+    return _uv(of, "") if output == "UV" else _surface_output(of, "vector", _COORDINATES[output])
 
 
 @operation("ShaderNodeUVMap")
@@ -217,6 +235,8 @@ def camera_data(of: Operands, output: str) -> Value | None:
 @operation("ShaderNodeLightPath")
 def light_path(of: Operands, output: str) -> Value | None:
     """Of the ray."""
+    if of.view.translation.is_world and output != "Is Camera Ray":
+        return None
     if output == "Portal Depth":
         return Value("number", 0.0)  # Ray Portal BSDFs are drawn, and reported, as something else
     return surface(of, "number", _LIGHT_PATH[output]) if output in _LIGHT_PATH else None

@@ -61,6 +61,10 @@ class Textures:
             warn(f'image "{b_image.name}" can\'t be read: drawn magenta')
         return self._images[key]
 
+    def draw(self, material: basicrt.Material, *, is_camera_ray: bool) -> basicrt.Image:
+        """What a material that emits shows in each direction."""
+        return self._scene.draw_environment(material, is_camera_ray=is_camera_ray)
+
     def add(self, key: Hashable, make: Callable[[], Any]) -> int:
         """The index of the texture with this key."""
         if key not in self._indices:

@@ -74,6 +74,8 @@ class Translation:
     textures: Textures
     # A volume is the same everywhere: nothing in it may vary.
     is_volume: bool = False
+    # A world is seen from its middle: its nodes read directions.
+    is_world: bool = False
     # What shaders have that nothing is linked to: zero is the surface's own, as it is.
     normal: Color | basicrt.OperationRef = (0.0, 0.0, 0.0)
     # What it asks for of meshes.

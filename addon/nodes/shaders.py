@@ -307,6 +307,6 @@ def ray_portal(view: NodeView) -> NodeIndex:
 
 
 @shader("ShaderNodeBackground")
-def black(_view: NodeView) -> NodeIndex:
-    """A background on a surface is black in Blender too."""
-    return None
+def background(view: NodeView) -> NodeIndex:
+    """Shines in a world; on a surface it is black in Blender too."""
+    return emission(view) if view.translation.is_world else None

@@ -9,7 +9,7 @@ import numpy as np
 
 import basicrt
 
-from .coordinate_nodes import texture_vector
+from .coordinate_nodes import surface, texture_vector
 from .coordinates import Coordinates, coordinates_at
 from .images import MISSING, ConvertedImage
 from .mesh_data import MeshData, Source
@@ -24,8 +24,6 @@ _EXTENSIONS = {"REPEAT": "repeat", "EXTEND": "extend", "CLIP": "clip", "MIRROR":
 def image_texture(view: NodeView) -> int:
     """A picture over the mesh's UV map."""
     node: Any = view.node
-    if node.projection != "FLAT":
-        view.warn(f"projection {node.projection} is not supported: drawn flat")
     store = view.translation.textures
     converted = store.image(node.image, view.warn)
     if converted is None:
@@ -58,17 +56,38 @@ def _uv_transform(view: NodeView) -> np.ndarray:
     return np.asarray(coordinates.matrix, np.float32)
 
 
+@operation("ShaderNodeTexEnvironment")
+def environment_lookup(of: Operands, _output: str) -> Value:
+    """A picture over directions."""
+    store = of.view.translation.textures
+    converted = store.image(of.node.image, of.view.warn)
+    if converted is None:
+        return Value("color", MISSING)
+    interpolation = INTERPOLATIONS[of.node.interpolation]
+    texture = store.add(
+        (converted.key, interpolation),
+        lambda: basicrt.ImageTexture(converted.image, interpolation=interpolation),
+    )
+    vector = of.vector("Vector") if of.is_linked("Vector") else surface(of, "vector", "position").data
+    made = basicrt.TextureOperation(
+        texture=texture, vector=vector, projection=of.node.projection.lower()
+    )
+    return of.add("color", made)
+
+
 @operation("ShaderNodeTexImage")
 def image_lookup(of: Operands, output: str) -> Value:
     """A picture over any coordinates."""
-    if of.node.projection != "FLAT":
-        of.view.warn(f"projection {of.node.projection} is not supported: drawn flat")
     store = of.view.translation.textures
     converted = store.image(of.node.image, of.view.warn)
     if converted is None:
         return Value("color", MISSING) if output == "Color" else Value("number", 1.0)
     texture = _image_texture(of.view, converted, np.eye(4, dtype=np.float32))
     made = basicrt.TextureOperation(
-        texture=texture, vector=texture_vector(of, "uv"), alpha=output == "Alpha"
+        texture=texture,
+        vector=texture_vector(of, "uv"),
+        alpha=output == "Alpha",
+        projection=of.node.projection.lower(),
+        blend=of.node.projection_blend,
     )
     return of.add("color" if output == "Color" else "number", made)

@@ -12,11 +12,12 @@ import numpy as np
 import basicrt
 
 from .. import compat
-from ..report import Report
+from ..report import HeldReport, Report
 from .coordinates import Coordinates, coordinates_at
 from .graph import Place, find_socket, trace
 from .images import MISSING, Textures
 from .node_view import Color, NodeView, Translation, as_color, positive, scaled
+from .operations import output_value
 from .sky import convert_sky
 from .textures import INTERPOLATIONS
 from .translate import fill, output_place
@@ -44,11 +45,10 @@ def translate_world(
     with compat.inlined_nodes(b_world) as tree:
         if tree is None:
             return None
-        translation = Translation(f'world "{b_world.name}"', report, basicrt.Material(), store)
         environment = basicrt.Environment()
         place = output_place(tree, "Surface")
         if place is not None:
-            layers = list(_shader_layers(translation, place, 1.0, "all"))
+            layers = _layers(f'world "{b_world.name}"', report, place, store)
             radiance = np.zeros(3)
             for layer in layers:
                 if _is_plain(layer):
@@ -56,6 +56,44 @@ def translate_world(
             environment.radiance = radiance
             environment.layers = [layer for layer in layers if not _is_plain(layer)]
     return environment
+
+
+class _NotLayersError(Exception):
+    """The world is a graph that layers can't say."""
+
+
+def _layers(
+    item: str, report: Report, place: Place, store: Textures
+) -> list[basicrt.EnvironmentLayer]:
+    """The pictures and colours that the nodes add up, or else a picture of what they compute."""
+    held = HeldReport()
+    translation = Translation(item, held, basicrt.Material(), store)
+    try:
+        layers = list(_shader_layers(translation, place, 1.0, "all"))
+    except _NotLayersError:
+        return _drawn_layers(item, report, place, store)
+    held.tell(report)
+    return layers
+
+
+def _drawn_layers(
+    item: str, report: Report, place: Place, store: Textures
+) -> list[basicrt.EnvironmentLayer]:
+    """What the camera sees of a graph and what others do, one picture where that is the same."""
+    material = basicrt.Material()
+    translation = Translation(item, report, material, store, is_world=True)
+    material.surface = translation.shader_at(place)
+    is_told_apart = any(
+        isinstance(operation, basicrt.SurfaceOperation) and operation.value == "is_camera_ray"
+        for operation in material.operations
+    )
+    rays = ("camera", "scattered") if is_told_apart else ("all",)
+    return [
+        basicrt.EnvironmentLayer(
+            image=store.draw(material, is_camera_ray=seen_by != "scattered"), seen_by=seen_by
+        )
+        for seen_by in rays
+    ]
 
 
 def translate_world_volume(
@@ -85,6 +123,8 @@ def _shader_layers(
     view = NodeView(node, source.groups, translation)
     match view.bl_idname:
         case "ShaderNodeBackground" | "ShaderNodeEmission":
+            if not isinstance(view.varying_number("Strength"), float):
+                raise _NotLayersError
             strength = factor * view.number("Strength")
             if strength > 0.0:
                 yield _color_layer(view, _input(view, "Color"), strength, seen_by)
@@ -124,6 +164,8 @@ def _mixed_layers(
             if (seen_by, rays) in _BOTH:
                 yield from _shader_layers(translation, place, factor, _BOTH[seen_by, rays])
         return
+    if not isinstance(view.share("Fac"), float):
+        raise _NotLayersError
     share = view.number("Fac", 0, 1)
     yield from _shader_layers(translation, first, factor * (1.0 - share), seen_by)
     yield from _shader_layers(translation, second, factor * share, seen_by)
@@ -144,6 +186,9 @@ def _color_layer(
     if color is not None:
         return _plain_layer(positive(as_color(color)), factor, seen_by)
     before = _environment_before(origin)
+    is_sky = before is not None and before.bl_idname == "ShaderNodeTexSky"
+    if not is_sky and output_value(view.translation, source) is not None:
+        raise _NotLayersError
     if before is not None:
         view.translation.warn(f"{origin.title} is not supported in a world and left out")
         return _textured_layer(before, factor, seen_by)
@@ -200,7 +245,10 @@ def _sky_layer(view: NodeView, factor: float, seen_by: str) -> basicrt.Environme
 
 def _direction_matrix(view: NodeView) -> Any:
     """What a texture's Vector input does to directions."""
-    coordinates = coordinates_at(view) or Coordinates("default", np.eye(4))
+    found = coordinates_at(view)
+    if found is None and view.bl_idname == "ShaderNodeTexEnvironment":
+        raise _NotLayersError
+    coordinates = found or Coordinates("default", np.eye(4))
     if coordinates.source not in _DIRECTIONS:
         view.warn(f"{coordinates.source} coordinates are not supported: the direction is used")
     return coordinates.matrix

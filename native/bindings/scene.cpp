@@ -4,6 +4,7 @@
 
 #include <pybind11/typing.h>
 
+#include "bsdf/draw_environment.h"
 #include "described.h"
 #include "io/sample_range.h"
 #include "io/scene_json.h"
@@ -66,6 +67,22 @@ Attribute<Instance> info_attribute(const char* name, const char* doc, Value Obje
           [member](Instance& self, py::handle value, const std::string& item) {
             self.info.*member = Python::read(value, item);
           }};
+}
+
+Image draw_environment_in(BoundScene& self, const Material& material, int width, int height, bool is_camera_ray) {
+  constexpr int largest = 1 << 14;
+  for (const auto& [name, size] : {std::pair{"width", width}, std::pair{"height", height}})
+    if (size < 1 || size > largest)
+      throw SceneError(std::string("Scene.draw_environment.") + name,
+                       "must be in [1, " + std::to_string(largest) + "], is " + std::to_string(size));
+  const SceneLease lease(self);
+  Scene alone;
+  alone.textures = lease.scene().textures;
+  alone.materials.append(material);
+  const py::gil_scoped_release release;
+  validate_description(alone);
+  return draw_environment(material, alone.textures,
+                          {.width = width, .height = height, .is_camera_ray = is_camera_ray}, 0);
 }
 
 void bind_instance(py::module_& m) {
@@ -166,6 +183,10 @@ void register_scene(py::module_& m) {
       .def(
           "range_metadata", [](BoundScene& self) { return range_metadata(SceneLease(self).scene()); },
           "JSON with which samples of which picture settings.samples_from and samples_to choose, for merging.")
+      .def("draw_environment", &draw_environment_in, py::arg("material"), py::arg("width") = 1024,
+           py::arg("height") = 512, py::arg("is_camera_ray") = true,
+           "What a material that emits shows in each direction, as an Image for an EnvironmentLayer, equirectangular. "
+           "Its operations, with textures of this scene, run at the points one metre away. Raises SceneError.")
       .def(
           "to_json", [](BoundScene& self) { return scene_to_json(SceneLease(self).scene()); },
           "The text that save() writes.")

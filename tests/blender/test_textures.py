@@ -23,6 +23,7 @@ from support.blender import (
     render_both,
     set_world,
 )
+from support.surfaces import add_ball
 
 RAMP = np.array([[[0.1, 0.9, 0.5, 1], [0.8, 0.2, 0.3, 1], [0.4, 0.6, 1, 1]]])
 
@@ -143,11 +144,6 @@ def test_an_unknown_colour_space_is_reported() -> None:
     image = new_image(RAMP, "Filmic sRGB", is_float=False)
     warning = 'node "Image Texture": image "Picture": the colour space Filmic sRGB is not supported: taken for sRGB'
     assert only_texture(textured_material(image)[0], warning).image.encoding == "srgb"
-
-
-def test_other_projections_are_reported() -> None:
-    material, _ = textured_material(new_image(RAMP), projection="BOX")
-    only_texture(material, 'node "Image Texture": projection BOX is not supported: drawn flat')
 
 
 def test_images_over_other_coordinates_are_operations() -> None:
@@ -304,6 +300,33 @@ def test_mapping_is_as_in_cycles(kind: str, tmp_path: Path) -> None:
     tree.links.new(mapping.outputs[0], texture.inputs["Vector"])
     add_strip(material)
     assert_same_as_cycles(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("projection", "blend"), [("BOX", 0.0), ("BOX", 0.4), ("BOX", 1.0), ("SPHERE", 0), ("TUBE", 0)]
+)
+@pytest.mark.parametrize("is_backwards", [False, True])
+def test_projections_are_as_in_cycles(
+    projection: str, blend: float, is_backwards: bool, tmp_path: Path
+) -> None:
+    columns, rows = np.meshgrid(np.linspace(0.1, 0.9, 16), np.linspace(0.2, 0.8, 16))
+    picture = np.stack([columns, rows, columns * rows, np.ones((16, 16))], axis=2)
+    material, texture = textured_material(
+        new_image(picture), extension="EXTEND", projection=projection, projection_blend=blend
+    )
+    tree = material.node_tree
+    coordinates = tree.nodes.new("ShaderNodeTexCoord")
+    tree.links.new(coordinates.outputs["Generated"], texture.inputs["Vector"])
+    made = add_ball(material, is_smooth=True)
+    made.rotation_euler = (0.5, 0.4, 0.3)
+    if is_backwards:
+        made.data.flip_normals()
+    bpy.context.scene.render.resolution_x = bpy.context.scene.render.resolution_y = 24
+    add_camera((0, 0, 3), ortho_scale=1.2)
+    ours, theirs = render_both(tmp_path)
+    differs = np.abs(ours - theirs)[..., :3].max(axis=2) > 0.004 + 0.01 * theirs.max(axis=2)
+    # A sample on the other side of an edge between sides, or of the seam.
+    assert differs.mean() < 0.02, np.abs(ours - theirs)[..., :3].max()
 
 
 def test_an_unlinked_mapping_maps_its_own_vector(tmp_path: Path) -> None:

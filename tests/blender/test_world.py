@@ -150,21 +150,12 @@ def test_a_world_without_strength_is_black() -> None:
     assert environment.layers == []
 
 
-def test_what_stands_between_image_and_background_is_left_out_with_a_warning() -> None:
-    tree, background, texture = environment_world()
-    gamma = tree.nodes.new("ShaderNodeGamma")
-    tree.links.new(texture.outputs[0], gamma.inputs["Color"])
-    tree.links.new(gamma.outputs[0], background.inputs["Color"])
-    environment = exported('node "Gamma" is not supported in a world and left out')
-    assert environment.layers[0].image is not None
-
-
 def test_an_unknown_colour_is_the_sockets_own_with_a_warning() -> None:
     tree, background = world_tree()
     background.inputs["Color"].default_value = (0.25, 0.5, 1, 1)
-    tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], background.inputs["Color"])
+    tree.links.new(tree.nodes.new("ShaderNodeTexIES").outputs[0], background.inputs["Color"])
     environment = exported(
-        'node "Noise Texture" is not supported in a world: the socket\'s own colour is used'
+        'node "IES Texture" is not supported in a world: the socket\'s own colour is used'
     )
     assert environment.radiance == (0.25, 0.5, 1)
 
@@ -217,6 +208,63 @@ def test_object_coordinates_are_directions_too(tmp_path: Path) -> None:
     tree, _background, texture = environment_world()
     add_mapping(tree, texture, "Object", Rotation=(0.4, 0.3, 0.9))
     assert_sky_is_as_in_cycles(tmp_path)
+
+
+def test_what_stands_between_image_and_background_is_as_in_cycles(tmp_path: Path) -> None:
+    tree, background, texture = environment_world()
+    gamma = tree.nodes.new("ShaderNodeGamma")
+    gamma.inputs["Gamma"].default_value = 0.6
+    tree.links.new(texture.outputs[0], gamma.inputs["Color"])
+    tree.links.new(gamma.outputs[0], background.inputs["Color"])
+    (layer,) = exported().layers
+    assert layer.image.width == 1024
+    assert_sky_is_as_in_cycles(tmp_path)
+
+
+def gradient(tree: Any, coordinates: str) -> Any:
+    """A colour by the height of the direction."""
+    separate = tree.nodes.new("ShaderNodeSeparateXYZ")
+    source = tree.nodes.new("ShaderNodeTexCoord").outputs[coordinates]
+    tree.links.new(source, separate.inputs[0])
+    ramp = tree.nodes.new("ShaderNodeValToRGB")
+    ramp.color_ramp.elements[0].color = (0.8, 0.5, 0.3, 1)
+    ramp.color_ramp.elements[1].color = (0.1, 0.3, 0.9, 1)
+    tree.links.new(separate.outputs["Z"], ramp.inputs["Fac"])
+    return ramp.outputs["Color"]
+
+
+@pytest.mark.parametrize("coordinates", ["Generated", "Normal", "Object", "Reflection"])
+def test_graphs_are_as_in_cycles(coordinates: str, tmp_path: Path) -> None:
+    tree, background = world_tree()
+    tree.links.new(gradient(tree, coordinates), background.inputs["Color"])
+    assert_sky_is_as_in_cycles(tmp_path)
+
+
+def test_backgrounds_mixed_by_a_pattern_are_as_in_cycles(tmp_path: Path) -> None:
+    tree, background = world_tree()
+    tree.links.new(gradient(tree, "Generated"), background.inputs["Color"])
+    noise = add_node(tree, "ShaderNodeTexNoise", Scale=2, Detail=1)
+    other = add_node(tree, "ShaderNodeBackground", Color=(0.9, 0.9, 0.8), Strength=0.7)
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(noise.outputs[0], mix.inputs[0])
+    tree.links.new(background.outputs[0], mix.inputs[1])
+    tree.links.new(other.outputs[0], mix.inputs[2])
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_WORLD")
+    tree.links.new(mix.outputs[0], output.inputs["Surface"])
+    assert_sky_is_as_in_cycles(tmp_path)
+
+
+def test_graphs_tell_camera_rays_apart() -> None:
+    tree, background = world_tree()
+    is_camera = tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"]
+    mix = add_node(tree, "ShaderNodeMixRGB", Color1=(0.25, 0.5, 1), Color2=(1, 0.5, 0.25))
+    tree.links.new(is_camera, mix.inputs[0])
+    tree.links.new(mix.outputs[0], background.inputs["Color"])
+    layers = exported().layers
+    assert [layer.seen_by for layer in layers] == ["camera", "scattered"]
+    colors = [layer.image.pixels.reshape(-1, 3) for layer in layers]
+    assert np.allclose(colors[0], (1, 0.5, 0.25))
+    assert np.allclose(colors[1], (0.25, 0.5, 1))
 
 
 def test_other_coordinates_are_reported() -> None:

@@ -10,20 +10,13 @@
 #include <vector>
 
 #include "base/describe.h"
+#include "image/environment_projection.h"
 #include "image/image_lookup.h"
 #include "light/sky.h"
 #include "math/color.h"
 #include "math/transform.h"
 
 namespace basicrt {
-
-// How a direction finds its place in a picture. Equirectangular: u = 1/2 - longitude / 2 pi, v = latitude / pi + 1/2,
-// so that z is up and x lies in the middle. Mirror ball: as a camera that looks along y sees it in a mirror sphere.
-// Horizon: as equirectangular, but v - 1/2 goes with the root of the latitude, so that rows are dense at the horizon.
-enum class EnvironmentProjection : std::uint8_t { equirectangular, mirror_ball, horizon };
-template <>
-inline constexpr std::array enum_names<EnvironmentProjection> =
-    std::to_array<std::string_view>({"equirectangular", "mirror_ball", "horizon"});
 
 enum class EnvironmentRays : std::uint8_t { all, camera, scattered };
 template <>
@@ -57,9 +50,6 @@ struct Environment {
     return std::tuple{field("radiance", &Environment::radiance, "W / (m^2 sr), each direction alike", at_least(0))};
   }
 };
-
-// For a direction in the layer's own space, of any length.
-[[nodiscard]] Vec2f project_direction(EnvironmentProjection projection, Vec3f direction);
 
 // What arrives from a direction of unit length, by whatever rays see the layer. Skies must have been drawn: a layer is
 // its image.

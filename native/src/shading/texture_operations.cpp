@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/environment_projection.h"
 #include "math/constants.h"
 #include "shading/evaluator.h"
 #include "shading/noise.h"
+#include "shading/surface_operations.h"
 
 namespace basicrt {
 namespace {
@@ -44,6 +46,45 @@ float wave_place(const WaveOperation& node, Vec3f p) {
   return length(p) * 20;
 }
 
+Vec3f from_middle(Vec3f place) { return (place - Vec3f(0.5f)) * 2; }
+
+Vec2f around_sphere(Vec3f p) {
+  const float distance = length(p);
+  if (distance == 0) return {0, 0};
+  const float u = p.x == 0 && p.y == 0 ? 0 : 0.5f - std::atan2(p.x, p.y) / (2 * pi);
+  return {u, 1 - std::acos(std::clamp(p.z / distance, -1.0f, 1.0f)) / pi};
+}
+
+Vec2f around_tube(Vec3f p) {
+  if (p.x == 0 && p.y == 0) return {0, 0};
+  return {0.5f - std::atan2(p.x, p.y) / (2 * pi), (p.z + 1) / 2};
+}
+
+// How much of a box's sides across x, y and z is seen where the normal has such absolute components; of one side but for
+// near its edges, of three near its corners.
+Vec3f box_shares(Vec3f normal, float blend) {
+  const Vec3f n = normal / (normal.x + normal.y + normal.z);
+  const float limit = 0.5f * (1 + blend);
+  const auto others = [](std::size_t i) { return std::pair{(i + 1) % 3, (i + 2) % 3}; };
+  Vec3f shares(0.0f);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [j, k] = others(i);
+    if (!(n[i] > limit * (n[i] + n[j]) && n[i] > limit * (n[i] + n[k]))) continue;
+    shares[i] = 1;
+    return shares;
+  }
+  if (!(blend > 0)) return {1, 0, 0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [j, k] = others(i);
+    if (n[i] >= (1 - limit) * (n[j] + n[k])) continue;
+    shares[j] = std::clamp((n[j] / (n[j] + n[k]) - 0.5f * (1 - blend)) / blend, 0.0f, 1.0f);
+    shares[k] = 1 - shares[j];
+    return shares;
+  }
+  for (std::size_t i = 0; i < 3; ++i) shares[i] = ((2 - limit) * n[i] + (limit - 1)) / (2 * limit - 1);
+  return shares;
+}
+
 // Fixed random numbers in [0, 1) of integers.
 float brick_noise(std::uint32_t n) {
   n = (n + 1013) & 0x7fffffff;
@@ -57,8 +98,32 @@ float brick_noise(std::uint32_t n) {
 Vec3f eval(const ImageOperation& node, const Evaluator& in) {
   const Vec3f place = in(node.vector);
   if (!node.texture.is_valid()) return Vec3f(0.0f);
-  const Rgba value = eval_texture(in.textures[node.texture], {place.x, place.y});
-  return node.is_alpha ? Vec3f(value.alpha) : value.color;
+  const auto at = [&](Vec2f uv) {
+    const Rgba value = eval_texture(in.textures[node.texture], uv);
+    return node.is_alpha ? Vec3f(value.alpha) : value.color;
+  };
+  switch (node.projection) {
+    case TextureProjection::flat:
+      break;
+    case TextureProjection::sphere:
+      return at(around_sphere(from_middle(place)));
+    case TextureProjection::tube:
+      return at(around_tube(from_middle(place)));
+    case TextureProjection::equirectangular:
+      return at(project_direction(EnvironmentProjection::equirectangular, place));
+    case TextureProjection::mirror_ball:
+      return at(project_direction(EnvironmentProjection::mirror_ball, place));
+    case TextureProjection::box: {
+      const Vec3f normal = eval(SurfaceOperation{SurfaceValue::object_normal}, in), shares = box_shares(abs(normal), node.blend);
+      Vec3f sum(0.0f);
+      // Each pair of sides is seen the right way round from outside.
+      if (shares.x > 0) sum += at({normal.x < 0 ? 1 - place.y : place.y, place.z}) * shares.x;
+      if (shares.y > 0) sum += at({normal.y > 0 ? 1 - place.x : place.x, place.z}) * shares.y;
+      if (shares.z > 0) sum += at({normal.z > 0 ? 1 - place.y : place.y, place.x}) * shares.z;
+      return sum;
+    }
+  }
+  return at({place.x, place.y});
 }
 
 Vec3f eval(const CheckerOperation& node, const Evaluator& in) {

@@ -13,11 +13,20 @@ namespace basicrt {
 
 class Evaluator;
 
-// The look-up of a texture of the scene by the vector's x and y.
+// How a texture is wrapped: flat over x and y; on the six sides of a box, by the normal in object space; around a sphere
+// or a tube, which stand upright in the middle of the unit cube; over directions as in EnvironmentProjection.
+enum class TextureProjection : std::uint8_t { flat, box, sphere, tube, equirectangular, mirror_ball };
+template <>
+inline constexpr std::array enum_names<TextureProjection> =
+    std::to_array<std::string_view>({"flat", "box", "sphere", "tube", "equirectangular", "mirror_ball"});
+
+// The look-up of a texture of the scene.
 struct ImageOperation {
   Id<Texture> texture{};
   ColorInput vector{Vec3f(0.0f)};
   bool is_alpha = false;
+  TextureProjection projection = TextureProjection::flat;
+  float blend = 0;
 
   bool operator==(const ImageOperation&) const = default;
   static constexpr std::string_view kind = "texture";
@@ -25,7 +34,11 @@ struct ImageOperation {
   static constexpr auto fields() {
     return std::tuple{field("texture", &ImageOperation::texture, "of the scene"),
                       field("vector", &ImageOperation::vector, "instead of uv"),
-                      field("alpha", &ImageOperation::is_alpha, "gives its alpha instead of its colour")};
+                      field("alpha", &ImageOperation::is_alpha, "gives its alpha instead of its colour"),
+                      field("projection", &ImageOperation::projection,
+                            "flat: over x and y; box: on six sides, by the normal; sphere and tube: around z; "
+                            "equirectangular and mirror_ball: over directions"),
+                      field("blend", &ImageOperation::blend, "how softly the sides of the box meet", within(0, 1))};
   }
 };
 
