@@ -175,16 +175,16 @@ TEST(Operations, voronoi_distance_is_that_to_its_position) {
 
 // Expected numbers: the paper's hashes (Jarzynski and Olano 2020) by whole numbers without bounds, cut to 32 bits.
 TEST(Operations, cells_are_hashed_as_signed_numbers) {
-  constexpr float most = 2147483647.0f;
+  const auto share = [](double number) { return static_cast<float>(number / 2147483647); };
   const Lattice<2> two = hash_cell(Lattice<2>{1, -2});
-  EXPECT_FLOAT_EQ(two[0], 1240201675 / most);
-  EXPECT_FLOAT_EQ(two[1], 555059549 / most);
+  EXPECT_FLOAT_EQ(two[0], share(1240201675));
+  EXPECT_FLOAT_EQ(two[1], share(555059549));
   const Lattice<3> three = hash_cell(Lattice<3>{1, -2, 3});
-  EXPECT_FLOAT_EQ(three[0], 908989604 / most);
-  EXPECT_FLOAT_EQ(three[2], 792426977 / most);
+  EXPECT_FLOAT_EQ(three[0], share(908989604));
+  EXPECT_FLOAT_EQ(three[2], share(792426977));
   const Lattice<4> four = hash_cell(Lattice<4>{1, -2, 3, -4});
-  EXPECT_FLOAT_EQ(four[0], 1763984726 / most);
-  EXPECT_FLOAT_EQ(four[3], 1711506339 / most);
+  EXPECT_FLOAT_EQ(four[0], share(1763984726));
+  EXPECT_FLOAT_EQ(four[3], share(1711506339));
 }
 
 TEST(Operations, voronoi_without_smoothness_is_that_of_the_nearest_point) {
