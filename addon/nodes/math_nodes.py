@@ -103,12 +103,13 @@ def map_range(of: Operands, _output: str) -> Value:
 @operation("ShaderNodeClamp")
 def clamp(of: Operands, _output: str) -> Value:
     """A number between two others, in either order where the node says so."""
-    low, high = of.number("Min"), of.number("Max")
+    low: Any = of.number("Min")
+    high: Any = of.number("Max")
     if of.node.clamp_type == "RANGE":
         least = of.add("number", basicrt.MathOperation(operation="minimum", a=low, b=high)).data
         high = of.add("number", basicrt.MathOperation(operation="maximum", a=low, b=high)).data
         low = least
-    above = of.add("number", basicrt.MathOperation("maximum", of.number("Value"), low)).data
+    above: Any = of.add("number", basicrt.MathOperation("maximum", of.number("Value"), low)).data
     return of.add("number", basicrt.MathOperation(operation="minimum", a=above, b=high))
 
 
