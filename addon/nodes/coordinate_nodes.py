@@ -122,7 +122,7 @@ def texture_coordinate(of: Operands, output: str) -> Value | None:
     if output == "Window" and not of.view.translation.textures.has_window:
         return None
     if output == "Normal" and isinstance(of.view.translation.normal, basicrt.OperationRef):
-        spaces = {"from": "world", "to": "object", "as": "normal"}
+        spaces = {"source": "world", "target": "object", "quantity": "normal"}
         vector = of.view.translation.normal
         return of.add("vector", basicrt.ChangeSpaceOperation(vector=vector, **spaces))
     if output == "Object" and of.node.object is not None:

@@ -103,12 +103,13 @@ def map_range(of: Operands, _output: str) -> Value:
 @operation("ShaderNodeClamp")
 def clamp(of: Operands, _output: str) -> Value:
     """A number between two others, in either order where the node says so."""
-    low, high = of.number("Min"), of.number("Max")
+    low: Any = of.number("Min")
+    high: Any = of.number("Max")
     if of.node.clamp_type == "RANGE":
         least = of.add("number", basicrt.MathOperation(operation="minimum", a=low, b=high)).data
         high = of.add("number", basicrt.MathOperation(operation="maximum", a=low, b=high)).data
         low = least
-    above = of.add("number", basicrt.MathOperation("maximum", of.number("Value"), low)).data
+    above: Any = of.add("number", basicrt.MathOperation("maximum", of.number("Value"), low)).data
     return of.add("number", basicrt.MathOperation(operation="minimum", a=above, b=high))
 
 
@@ -206,7 +207,7 @@ def separate(of: Operands, output: str) -> Value:
     value = of.vector(names.get(of.node.bl_idname, "Color"))
     model = _model(of)
     if model != "rgb":
-        made = basicrt.ConvertColorOperation(color=value, **{"from": "rgb", "to": model})
+        made = basicrt.ConvertColorOperation(color=value, source="rgb", target=model)
         value = of.view.translation.material.add_operation(made)
     component = basicrt.ComponentOperation(value=value, component=_COMPONENTS[output])
     return of.add("number", component)
@@ -222,7 +223,7 @@ def combine(of: Operands, _output: str) -> Value:
     model = _model(of)
     if model == "rgb":
         return made
-    converted = basicrt.ConvertColorOperation(color=made.data, **{"from": model, "to": "rgb"})
+    converted = basicrt.ConvertColorOperation(color=made.data, source=model, target="rgb")
     return of.add("color", converted)
 
 

@@ -183,7 +183,8 @@ class NodeView:
         if found is None:
             self.ignore(**{identifier.replace(" ", "_"): None})
             return self.translation.normal
-        return found
+        normal: Color | basicrt.OperationRef = found
+        return normal
 
     def color(self, identifier: str) -> Color | basicrt.TextureRef | basicrt.OperationRef:
         """A colour that reflects or lets through: each channel in [0, 1]."""

@@ -102,7 +102,8 @@ def value_at(view: NodeView, place: Place) -> Value:
 
 
 def _title(view: NodeView, source: Place) -> str:
-    return type(view)(source.socket.node, source.groups, view.translation).title
+    node: Any = source.socket.node
+    return type(view)(node, source.groups, view.translation).title
 
 
 def output_value(translation: Translation, source: Place) -> Value | None:

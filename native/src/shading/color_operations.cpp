@@ -184,11 +184,11 @@ Vec3f eval(const TableOperation& node, const Evaluator& in) {
 
 Vec3f eval(const ConvertColorOperation& node, const Evaluator& in) {
   Vec3f color = in(node.color);
-  if (node.from == node.to) return color;
-  if (node.from == ColorModel::hsv) color = from_hsv(color);
-  if (node.from == ColorModel::hsl) color = from_hsl(color);
-  if (node.to == ColorModel::hsv) return to_hsv(color);
-  return node.to == ColorModel::hsl ? to_hsl(color) : color;
+  if (node.source == node.target) return color;
+  if (node.source == ColorModel::hsv) color = from_hsv(color);
+  if (node.source == ColorModel::hsl) color = from_hsl(color);
+  if (node.target == ColorModel::hsv) return to_hsv(color);
+  return node.target == ColorModel::hsl ? to_hsl(color) : color;
 }
 
 Vec3f eval(const HueSaturationOperation& node, const Evaluator& in) {

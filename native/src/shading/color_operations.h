@@ -86,14 +86,14 @@ inline constexpr std::array enum_names<ColorModel> = std::to_array<std::string_v
 
 struct ConvertColorOperation {
   ColorInput color{Vec3f(0.8f)};
-  ColorModel from = ColorModel::rgb, to = ColorModel::hsv;
+  ColorModel source = ColorModel::rgb, target = ColorModel::hsv;
 
   bool operator==(const ConvertColorOperation&) const = default;
   static constexpr std::string_view kind = "convert_color";
   static constexpr auto fields() {
     return std::tuple{field("color", &ConvertColorOperation::color, "three numbers"),
-                      field("from", &ConvertColorOperation::from, "what they are: rgb, hsv or hsl"),
-                      field("to", &ConvertColorOperation::to, "what they become: rgb, hsv or hsl")};
+                      field("source", &ConvertColorOperation::source, "what they are: rgb, hsv or hsl"),
+                      field("target", &ConvertColorOperation::target, "what they become: rgb, hsv or hsl")};
   }
 };
 

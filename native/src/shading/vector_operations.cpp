@@ -91,7 +91,7 @@ Vec3f eval(const RotateOperation& node, const Evaluator& in) {
 
 Vec3f eval(const TransformOperation& node, const Evaluator& in) {
   const Vec3f vector = in(node.vector);
-  switch (node.as) {
+  switch (node.quantity) {
     case VectorKind::point:
       return node.transform.point(vector);
     case VectorKind::vector:
@@ -104,9 +104,9 @@ Vec3f eval(const TransformOperation& node, const Evaluator& in) {
 
 Vec3f eval(const ChangeSpaceOperation& node, const Evaluator& in) {
   const Vec3f vector = in(node.vector);
-  if (node.from == node.to) return node.as == VectorKind::normal ? normalized(vector) : vector;
-  const Both from = both(node.from, in.context), to = both(node.to, in.context);
-  switch (node.as) {
+  if (node.source == node.target) return node.quantity == VectorKind::normal ? normalized(vector) : vector;
+  const Both from = both(node.source, in.context), to = both(node.target, in.context);
+  switch (node.quantity) {
     case VectorKind::point:
       return to.from_world.point(from.to_world.point(vector));
     case VectorKind::vector:

@@ -67,14 +67,14 @@ inline constexpr std::array enum_names<VectorKind> = std::to_array<std::string_v
 struct TransformOperation {
   ColorInput vector{Vec3f(0.0f)};
   Transform transform;
-  VectorKind as = VectorKind::point;
+  VectorKind quantity = VectorKind::point;
 
   bool operator==(const TransformOperation&) const = default;
   static constexpr std::string_view kind = "transform";
   static constexpr auto fields() {
     return std::tuple{field("vector", &TransformOperation::vector, "what is transformed"),
                       field("transform", &TransformOperation::transform, "of columns, rows first"),
-                      field("as", &TransformOperation::as, "what it is: point, vector or normal")};
+                      field("quantity", &TransformOperation::quantity, "what it is: point, vector or normal")};
   }
 };
 
@@ -84,17 +84,17 @@ inline constexpr std::array enum_names<Space> = std::to_array<std::string_view>(
 
 struct ChangeSpaceOperation {
   ColorInput vector{Vec3f(0.0f)};
-  Space from = Space::world, to = Space::object;
-  VectorKind as = VectorKind::point;
+  Space source = Space::world, target = Space::object;
+  VectorKind quantity = VectorKind::point;
 
   bool operator==(const ChangeSpaceOperation&) const = default;
   static constexpr std::string_view kind = "change_space";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
     return std::tuple{field("vector", &ChangeSpaceOperation::vector, "what is transformed"),
-                      field("from", &ChangeSpaceOperation::from, "world, object or camera (where z points forwards)"),
-                      field("to", &ChangeSpaceOperation::to, "world, object or camera (where z points forwards)"),
-                      field("as", &ChangeSpaceOperation::as, "what it is: point, vector or normal")};
+                      field("source", &ChangeSpaceOperation::source, "world, object or camera (where z points forwards)"),
+                      field("target", &ChangeSpaceOperation::target, "world, object or camera (where z points forwards)"),
+                      field("quantity", &ChangeSpaceOperation::quantity, "what it is: point, vector or normal")};
   }
 };
 

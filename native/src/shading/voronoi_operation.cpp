@@ -122,11 +122,11 @@ template <int N>
 float distance_to_edge(const Lattice<N>& p, const Settings& settings) {
   const Cell<N> cell(p, settings);
   if constexpr (N == 1) {
-    const auto middle = [&](float a, float b) {
-      return std::abs((cell.feature_point(Lattice<1>{a})[0] + cell.feature_point(Lattice<1>{b})[0]) / 2 -
-                      cell.local[0]);
+    const float own = hash_to_unit(cell.corner[0]) * cell.randomness;  // with the sign of a zero
+    const auto edge = [&](float neighbour) {
+      return std::abs((own + cell.feature_point(Lattice<1>{neighbour})[0]) / 2 - cell.local[0]);
     };
-    return std::min(middle(0, -1), middle(0, 1));
+    return std::min(edge(-1), edge(1));
   }
   Lattice<N> closest{};
   float least = far_away;

@@ -138,8 +138,8 @@ TEST(Operations, mix_blends) {
 TEST(Operations, colors_go_to_other_models_and_back) {
   for (const ColorModel model : {ColorModel::hsv, ColorModel::hsl}) {
     const Color color{0.2f, 0.7f, 0.4f};
-    const Vec3f there = value_of(ConvertColorOperation{.color = color, .from = ColorModel::rgb, .to = model});
-    const Color back = value_of(ConvertColorOperation{.color = there, .from = model, .to = ColorModel::rgb});
+    const Vec3f there = value_of(ConvertColorOperation{.color = color, .source = ColorModel::rgb, .target = model});
+    const Color back = value_of(ConvertColorOperation{.color = there, .source = model, .target = ColorModel::rgb});
     EXPECT_LT(max_component(abs(back - color)), 1e-6f);
   }
 }
@@ -175,16 +175,16 @@ TEST(Operations, voronoi_distance_is_that_to_its_position) {
 
 // Expected numbers: the paper's hashes (Jarzynski and Olano 2020) by whole numbers without bounds, cut to 32 bits.
 TEST(Operations, cells_are_hashed_as_signed_numbers) {
-  constexpr float most = 2147483647.0f;
+  const auto share = [](double number) { return static_cast<float>(number / 2147483647); };
   const Lattice<2> two = hash_cell(Lattice<2>{1, -2});
-  EXPECT_FLOAT_EQ(two[0], 1240201675 / most);
-  EXPECT_FLOAT_EQ(two[1], 555059549 / most);
+  EXPECT_FLOAT_EQ(two[0], share(1240201675));
+  EXPECT_FLOAT_EQ(two[1], share(555059549));
   const Lattice<3> three = hash_cell(Lattice<3>{1, -2, 3});
-  EXPECT_FLOAT_EQ(three[0], 908989604 / most);
-  EXPECT_FLOAT_EQ(three[2], 792426977 / most);
+  EXPECT_FLOAT_EQ(three[0], share(908989604));
+  EXPECT_FLOAT_EQ(three[2], share(792426977));
   const Lattice<4> four = hash_cell(Lattice<4>{1, -2, 3, -4});
-  EXPECT_FLOAT_EQ(four[0], 1763984726 / most);
-  EXPECT_FLOAT_EQ(four[3], 1711506339 / most);
+  EXPECT_FLOAT_EQ(four[0], share(1763984726));
+  EXPECT_FLOAT_EQ(four[3], share(1711506339));
 }
 
 TEST(Operations, voronoi_without_smoothness_is_that_of_the_nearest_point) {
@@ -211,7 +211,7 @@ TEST(Operations, gamma_of_zero_is_white) {
 
 TEST(Operations, hues_beyond_a_turn_are_in_the_last_sector) {
   const auto color = [](float hue) {
-    return value_of(ConvertColorOperation{.color = Vec3f(hue, 1, 1), .from = ColorModel::hsv, .to = ColorModel::rgb});
+    return value_of(ConvertColorOperation{.color = Vec3f(hue, 1, 1), .source = ColorModel::hsv, .target = ColorModel::rgb});
   };
   EXPECT_EQ(color(1), Vec3f(1, 0, 0));
   EXPECT_EQ(color(1.125f), Vec3f(1, 0, 0.25f));
