@@ -122,9 +122,11 @@ def texture_coordinate(of: Operands, output: str) -> Value | None:
     if output == "Window" and not of.view.translation.textures.has_window:
         return None
     if output == "Normal" and isinstance(of.view.translation.normal, basicrt.OperationRef):
-        spaces = {"source": "world", "target": "object", "quantity": "normal"}
         vector = of.view.translation.normal
-        return of.add("vector", basicrt.ChangeSpaceOperation(vector=vector, **spaces))
+        made = basicrt.ChangeSpaceOperation(
+            vector=vector, source="world", target="object", quantity="normal"
+        )
+        return of.add("vector", made)
     if output == "Object" and of.node.object is not None:
         place = surface(of, "vector", "position")
         matrix = np.array(of.node.object.matrix_world.inverted_safe(), np.float32)
@@ -301,9 +303,11 @@ def vector_rotate(of: Operands, _output: str) -> Value:
 @operation("ShaderNodeVectorTransform")
 def vector_transform(of: Operands, _output: str) -> Value:
     """From one space to another."""
-    spaces = {"from": of.node.convert_from.lower(), "to": of.node.convert_to.lower()}
     made = basicrt.ChangeSpaceOperation(
-        vector=of.vector("Vector"), **spaces, **{"as": of.node.vector_type.lower()}
+        vector=of.vector("Vector"),
+        source=of.node.convert_from.lower(),
+        target=of.node.convert_to.lower(),
+        quantity=of.node.vector_type.lower(),
     )
     return of.add("vector", made)
 
