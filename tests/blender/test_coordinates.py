@@ -270,7 +270,6 @@ def test_light_path_of_a_shadow_ray(name: str, tmp_path: Path) -> None:
     add_plane(size=6, z=1, material=material)
     add_plane(size=6, z=1.5, material=material)
     add_lamp("SUN", (0, 0, 5), (0.3, 0.2, 0), energy=3, angle=0)
-    bpy.context.scene.basicrt.max_bounces = 0
     add_camera((0, -4, 3), (math.radians(55), 0, 0), "PERSP", lens=40)
     ours, theirs = render_both(tmp_path)
     differences = np.abs(ours - theirs)[..., :3].max(axis=2)
