@@ -51,6 +51,12 @@ def convert(
     return [one for one in found if one is not None]
 
 
+def lacks_tangents(b_mesh: bpy.types.Mesh, asked: Collection[MeshData]) -> bool:
+    """Whether it has no UV map of which Blender makes up another one to take tangents from."""
+    data = MeshData(Source.UV, "", Part.TANGENT)
+    return data in asked and _uv_layer(b_mesh, "") is None
+
+
 def active_uvs(
     b_mesh: bpy.types.Mesh, triangles: Triangles, asked: Collection[MeshData]
 ) -> Floats | None:
@@ -174,23 +180,12 @@ def _convert_tangents(
     b_mesh: bpy.types.Mesh, triangles: Triangles, data: MeshData
 ) -> Converted | None:
     layer = _uv_layer(b_mesh, data.name)
-    if layer is None and data.name:
+    if layer is None:
         return None
-    uvs = _sphere_uvs(triangles) if layer is None else _corner_uvs(layer, triangles)
-    tangents, signs = make_tangents(triangles, uvs)
+    tangents, signs = make_tangents(triangles, _corner_uvs(layer, triangles))
     if data.part == Part.TANGENT:
         return data.exported_name, "corner", tangents.reshape(-1, 3)
     return data.exported_name, "face", np.repeat(signs[:, None], 3, axis=1)
-
-
-def _sphere_uvs(triangles: Triangles) -> Floats:
-    """(T, 3, 2): longitude and latitude, which Blender takes for the tangents of meshes without maps."""
-    x, y, z = triangles.positions.T
-    length = np.maximum(np.linalg.norm(triangles.positions, axis=1), 1e-30)
-    is_pole = (x == 0.0) & (y == 0.0)
-    u = np.where(is_pole, 0.0, 0.5 - np.arctan2(x, y) / (2.0 * np.pi))
-    v = 1.0 - np.arccos(np.clip(z / length, -1.0, 1.0)) / np.pi
-    return np.stack([u, v], axis=1).astype(np.float32)[triangles.vertices]
 
 
 def make_tangents(triangles: Triangles, uvs: Floats) -> tuple[Floats, Floats]:

@@ -13,7 +13,7 @@ import numpy as np
 import basicrt
 
 from .. import compat
-from ..export import camera, light, material, mesh, motion, settings, visibility, world
+from ..export import attributes, camera, light, material, mesh, motion, settings, visibility, world
 from ..export.identity import random_number, uid
 from ..nodes import MeshData, Textures
 from ..report import ExportError, Report
@@ -204,6 +204,8 @@ class _InstanceExport:
             raise ExportError(f"{name}: {error}") from error
         if shape is None:
             return None
+        if attributes.lacks_tangents(b_mesh, asked):
+            self._warn(b_object, "has no UV map for the tangents that its material asks for")
         self._names["shapes"].append(name)
         return self._scene.shapes.append(shape)
 
