@@ -51,6 +51,12 @@ def convert(
     return [one for one in found if one is not None]
 
 
+def lacks_tangents(b_mesh: bpy.types.Mesh, asked: Collection[MeshData]) -> bool:
+    """Whether it has no UV map of which Blender makes up another one to take tangents from."""
+    data = MeshData(Source.UV, "", Part.TANGENT)
+    return data in asked and _uv_layer(b_mesh, "") is None
+
+
 def active_uvs(
     b_mesh: bpy.types.Mesh, triangles: Triangles, asked: Collection[MeshData]
 ) -> Floats | None:

@@ -13,8 +13,8 @@ import numpy as np
 import basicrt
 
 from .. import compat
-from ..export import camera, light, material, mesh, motion, settings, visibility, world
-from ..export.identity import uid
+from ..export import attributes, camera, light, material, mesh, motion, settings, visibility, world
+from ..export.identity import random_number, uid
 from ..nodes import MeshData, Textures
 from ..report import ExportError, Report
 from .motion import FrameSet, MotionExport, set_frame
@@ -173,7 +173,7 @@ class _InstanceExport:
                 visibility=self._visibility_of(b_instance, b_object),
                 color=b_object.color[:3],
                 alpha=b_object.color[3],
-                random=b_instance.random_id / 0xFFFFFFFF,
+                random=random_number(b_instance),
                 holdout=self._is_holdout(b_instance, b_object),
                 shadow_catcher=self._is_shadow_catcher(b_instance, b_object),
                 shadow_terminator_offset=compat.shadow_terminator_offset(b_object),
@@ -204,6 +204,8 @@ class _InstanceExport:
             raise ExportError(f"{name}: {error}") from error
         if shape is None:
             return None
+        if attributes.lacks_tangents(b_mesh, asked):
+            self._warn(b_object, "has no UV map for the tangents that its material asks for")
         self._names["shapes"].append(name)
         return self._scene.shapes.append(shape)
 

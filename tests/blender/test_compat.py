@@ -184,3 +184,19 @@ def test_spectra_are_white_where_the_matrix_has_its_white() -> None:
 def test_luminance_is_that_of_the_matrix() -> None:
     luminance = np.linalg.inv(compat.rec709_from_xyz())[1]
     assert compat.luminance_weights() == pytest.approx(luminance, abs=1e-6)
+
+
+def test_bumps_have_a_filter_width_from_4_3_on() -> None:
+    node = empty_material()[1].nodes.new("ShaderNodeBump")
+    width = node.inputs.get("Filter Width")
+    assert (width is not None) == (bpy.app.version >= (4, 3, 0))
+    expected = 1.0 if width is None else width.default_value
+    assert compat.bump_filter_width() == pytest.approx(expected)
+
+
+def test_green_is_down_only_where_a_node_says_so() -> None:
+    node = empty_material()[1].nodes.new("ShaderNodeNormalMap")
+    assert not compat.is_green_down(node)
+    if bpy.app.version >= (5, 2, 0):
+        node.convention = "DIRECTX"
+        assert compat.is_green_down(node)

@@ -478,14 +478,6 @@ def test_subsurface_scattering_is_reported() -> None:
     only_node(material, 'node "Principled BSDF": Subsurface Weight is not supported and left out')
 
 
-def test_coat_normals_are_reported() -> None:
-    material, tree, output = empty_material()
-    node = add_node(tree, "ShaderNodeBsdfPrincipled", Coat_Weight=1.0)
-    tree.links.new(tree.nodes.new("ShaderNodeBump").outputs[0], node.inputs["Coat Normal"])
-    tree.links.new(node.outputs[0], output.inputs["Surface"])
-    only_node(material, 'node "Principled BSDF": Coat Normal is not supported and left out')
-
-
 def test_a_normal_that_cannot_be_had_is_reported() -> None:
     material, tree, output = empty_material()
     diffuse = add_node(tree, "ShaderNodeBsdfDiffuse", Color=COLOR)
@@ -494,12 +486,12 @@ def test_a_normal_that_cannot_be_had_is_reported() -> None:
     only_node(material, 'node "Diffuse BSDF": Normal is not supported and left out')
 
 
-def test_displacement_is_reported() -> None:
+def test_displacement_by_vectors_is_reported() -> None:
     material, tree, output = empty_material()
     tree.links.new(
-        tree.nodes.new("ShaderNodeDisplacement").outputs[0], output.inputs["Displacement"]
+        tree.nodes.new("ShaderNodeVectorDisplacement").outputs[0], output.inputs["Displacement"]
     )
-    translate(material, "Displacement is not supported and left out")
+    translate(material, "displacement by Vector Displacement is not supported and left out")
 
 
 @pytest.mark.parametrize(

@@ -200,24 +200,6 @@ def test_mix_takes_an_image_as_factor() -> None:
     assert translated.nodes[0].factor == basicrt.TextureRef(0)
 
 
-def test_a_uv_map_that_is_not_exported_is_reported_for_its_objects() -> None:
-    material, texture = textured_material(new_image(RAMP))
-    uv_map = add_node(material.node_tree, "ShaderNodeUVMap")
-    uv_map.uv_map = "Other"
-    material.node_tree.links.new(uv_map.outputs["UV"], texture.inputs["Vector"])
-    add_camera()
-    for name, layers in (("One", ["Other"]), ("Two", ["First", "Other"])):
-        made = add_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], material, name)
-        for layer in layers:
-            made.data.uv_layers.new(name=layer)
-        made.data.uv_layers[0].active_render = True
-    report = Report()
-    export(report)
-    assert report.warnings == (
-        'object "Two": the UV map "Other" is not the one that is active for rendering, which is used instead',
-    )
-
-
 def test_numbers_take_images() -> None:
     material, _ = textured_material(new_image(RAMP), "ShaderNodeBsdfAnisotropic", "Roughness")
     translated, _scene = translate(material)

@@ -129,6 +129,7 @@ ShadingContext PathIntegrator::shadow_context(const Connection& connection, cons
   ShadingContext context = shading_context(scene_, point, ray_shadow);
   set_bounces(context, connection.bounces);
   ++context.bounces;
+  --context.transparent_bounces;  // the surface itself is counted already
   return context;
 }
 

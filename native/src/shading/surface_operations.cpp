@@ -240,7 +240,12 @@ Vec3f eval(const FresnelOperation& node, const Evaluator& in) {
 }
 
 Vec3f eval(const NormalMapOperation& node, const Evaluator& in) {
-  const Vec3f encoded = in(node.color) * 2 - Vec3f(1.0f);
+  Vec3f encoded = in(node.color) * 2 - Vec3f(1.0f);
+  float strength = std::max(in(node.strength), 0.0f);
+  if (node.space == NormalMapSpace::tangent) {
+    encoded = {encoded.x * strength, encoded.y * strength, lerp(1.0f, encoded.z, std::min(strength, 1.0f))};
+    strength = 1;
+  }
   Vec3f normal;
   switch (node.space) {
     case NormalMapSpace::tangent:
@@ -256,7 +261,6 @@ Vec3f eval(const NormalMapOperation& node, const Evaluator& in) {
   }
   const Vec3f own = viewed_normal(in);
   if (length_squared(normal) == 0) return own;
-  const float strength = std::max(in(node.strength), 0.0f);
   const Vec3f mixed = normalized(lerp(own, normal * side(in), strength));
   return length_squared(mixed) == 0 ? own : mixed;
 }
