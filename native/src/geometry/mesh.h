@@ -19,8 +19,7 @@ namespace basicrt {
 // What the values of a mesh's attribute belong to.
 enum class AttributeDomain : std::uint8_t { vertex, corner, face };
 template <>
-inline constexpr std::array enum_names<AttributeDomain> =
-    std::to_array<std::string_view>({"vertex", "corner", "face"});
+inline constexpr std::array enum_names<AttributeDomain> = std::to_array<std::string_view>({"vertex", "corner", "face"});
 
 // Three numbers for each vertex, each corner of the triangles, or each triangle; a single number is there thrice.
 struct MeshAttribute {

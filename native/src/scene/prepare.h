@@ -27,7 +27,7 @@ struct PreparedScene {
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
     bool needs_derivatives = false;        // one of the materials does
     ObjectInfo info;
-    Bounds3f box;                          // of the shape, in object space, where they are needed
+    Bounds3f box;  // of the shape, in object space, where they are needed
     bool is_holdout = false;
     bool is_shadow_catcher = false;
     float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
@@ -41,7 +41,7 @@ struct PreparedScene {
   std::optional<CameraWindow> window;
   // How wide a pixel in the middle is at the camera, and how much wider with each metre.
   float pixel_width = 0, pixel_spread = 0;
-  Shutter shutter;             // for what moves
+  Shutter shutter;  // for what moves
   RenderSettings settings;
   std::vector<Shape> shapes;
   std::vector<std::uint64_t> shape_revisions;

@@ -19,8 +19,8 @@ using Operation =
     std::variant<MathOperation, VectorMathOperation, MapRangeOperation, ComponentOperation, CombineOperation,
                  MixOperation, TableOperation, ConvertColorOperation, HueSaturationOperation, ToneOperation,
                  MappingOperation, RotateOperation, TransformOperation, ChangeSpaceOperation, SurfaceOperation,
-                 AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation, BumpOperation, ImageOperation,
-                 CheckerOperation, GradientOperation, WaveOperation, MagicOperation, BrickOperation, NoiseOperation,
-                 WhiteNoiseOperation, VoronoiOperation>;
+                 AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation,
+                 BumpOperation, ImageOperation, CheckerOperation, GradientOperation, WaveOperation, MagicOperation,
+                 BrickOperation, NoiseOperation, WhiteNoiseOperation, VoronoiOperation>;
 
 }  // namespace basicrt
