@@ -72,9 +72,7 @@ def active_uvs(
     return None
 
 
-def _convert_one(
-    b_mesh: bpy.types.Mesh, triangles: Triangles, data: MeshData
-) -> Converted | None:
+def _convert_one(b_mesh: bpy.types.Mesh, triangles: Triangles, data: MeshData) -> Converted | None:
     if data.part in (Part.TANGENT, Part.TANGENT_SIGN):
         return _convert_tangents(b_mesh, triangles, data)
     if data.part == Part.ISLAND:
@@ -85,7 +83,7 @@ def _convert_one(
     if b_attribute.domain not in _DOMAINS or len(b_attribute.data) == 0:
         return None
     member, width = _MEMBERS[b_attribute.data_type]
-    numbers = np.empty(len(b_attribute.data) * width, _storage(b_attribute))
+    numbers: NDArray[Any] = np.empty(len(b_attribute.data) * width, _storage(b_attribute))
     b_attribute.data.foreach_get(member, numbers)
     values = _part(numbers.reshape(-1, width).astype(np.float32), data.part)
     if values is None:
@@ -227,18 +225,21 @@ def make_tangents(triangles: Triangles, uvs: Floats) -> tuple[Floats, Floats]:
 def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Of length 1, or zero."""
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)
+    unit: NDArray[np.float64] = np.divide(
+        vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0
+    )
+    return unit
 
 
 def _across(vectors: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
     """Without their share along normals of unit length."""
-    return vectors - normals * np.sum(vectors * normals, axis=-1, keepdims=True)
+    along: NDArray[np.float64] = np.sum(vectors * normals, axis=-1, keepdims=True)
+    return vectors - normals * along
 
 
-def _angles(
-    places: NDArray[np.float64], normals: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _angles(places: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
     """(T, 3): of each triangle's corners, as seen along the corners' normals."""
     after = _unit(_across(np.roll(places, -1, axis=1) - places, normals))
     before = _unit(_across(np.roll(places, 1, axis=1) - places, normals))
-    return np.arccos(np.clip(np.sum(after * before, axis=-1), -1.0, 1.0))
+    cosines: NDArray[np.float64] = np.sum(after * before, axis=-1)
+    return np.arccos(np.clip(cosines, -1.0, 1.0))

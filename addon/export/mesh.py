@@ -103,8 +103,8 @@ def convert(b_mesh: bpy.types.Mesh, asked: Iterable[MeshData] = ()) -> basicrt.M
 
     positions (V, 3) float32, object space, metres; triangles (T, 3) int32; corner normals (T, 3, 3)
     float32, none where every face is flat; uvs (T, 3, 2) float32 of the layer that is active for
-    rendering; material slots (T,) int32; the attributes that are asked for. Holds no reference to `b_mesh`. Raises basicrt.SceneError
-    for numbers that are not finite.
+    rendering; material slots (T,) int32; the attributes that are asked for. Holds no reference to
+    `b_mesh`. Raises basicrt.SceneError for numbers that are not finite.
     """
     corners = _corners(b_mesh)
     if corners.size == 0:

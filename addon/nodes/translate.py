@@ -75,9 +75,7 @@ def translate_surface(
     return material
 
 
-def _displace(
-    translation: Translation, place: Place, b_material: bpy.types.Material
-) -> None:
+def _displace(translation: Translation, place: Place, b_material: bpy.types.Material) -> None:
     """Gives shaders the normal of the displaced surface, which itself stays where it is."""
     normal = displacement_normal(place, translation)
     if normal is None:

@@ -11,7 +11,15 @@ import numpy as np
 import pytest
 
 import basicrt
-from support.blender import add_camera, add_mesh, empty_material, export, new_image, new_scene, render_both
+from support.blender import (
+    add_camera,
+    add_mesh,
+    empty_material,
+    export,
+    new_image,
+    new_scene,
+    render_both,
+)
 
 SIZE = 24
 TOLERANCE = 4e-3  # filters of 0.01 pixels, on steep random values
@@ -30,7 +38,9 @@ def fill(b_attribute: Any, seed: int = 7) -> None:
     """Random numbers."""
     random = np.random.default_rng(seed)
     kind = b_attribute.data_type
-    member = {"FLOAT": "value", "INT": "value", "BOOLEAN": "value", "INT8": "value"}.get(kind, "vector")
+    member = {"FLOAT": "value", "INT": "value", "BOOLEAN": "value", "INT8": "value"}.get(
+        kind, "vector"
+    )
     member = "color" if kind.endswith("COLOR") else member
     width = {"value": 1, "color": 4, "vector": 2 if kind == "FLOAT2" else 3}[member]
     numbers = random.random(len(b_attribute.data) * width).astype(np.float32)

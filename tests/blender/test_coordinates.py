@@ -162,9 +162,7 @@ SPACES = ["WORLD", "OBJECT", "CAMERA"]
 
 
 @pytest.mark.parametrize("kind", ["POINT", "VECTOR", "NORMAL"])
-@pytest.mark.parametrize(
-    ("source", "target"), [(a, b) for a in SPACES for b in SPACES]
-)
+@pytest.mark.parametrize(("source", "target"), [(a, b) for a in SPACES for b in SPACES])
 def test_vector_transform(source: str, target: str, kind: str, tmp_path: Path) -> None:
     tree, emission, _made = ball()
     node = tree.nodes.new("ShaderNodeVectorTransform")
@@ -185,7 +183,9 @@ def test_wireframe(size: float, in_pixels: bool, tmp_path: Path) -> None:
 def test_hair_info_of_a_surface(tmp_path: Path) -> None:
     tree, emission, _made = ball()
     node = tree.nodes.new("ShaderNodeHairInfo")
-    np.testing.assert_allclose(*pictures(tree, output_of(node, "Is Strand"), emission, tmp_path), atol=1e-3)
+    np.testing.assert_allclose(
+        *pictures(tree, output_of(node, "Is Strand"), emission, tmp_path), atol=1e-3
+    )
 
 
 UNSUPPORTED = [

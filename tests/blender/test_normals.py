@@ -190,7 +190,9 @@ def compare_shaders(tree: Any, shader: Any, folder: Path, angle: float = 0.5) ->
     assert np.ptp(theirs[..., :3]) > 0.05
     differences = np.abs(ours - theirs)[..., :3].max(axis=2)
     # Cycles dims diffuse light where the normal turns away from the surface's, in 4.2 more.
-    assert (differences > 0.015 * theirs.max()).mean() <= 0.03, np.sort(differences.ravel())[::-1][:8]
+    assert (differences > 0.015 * theirs.max()).mean() <= 0.03, np.sort(differences.ravel())[::-1][
+        :8
+    ]
 
 
 SHADERS = ["Diffuse", "Translucent", "Anisotropic", "Sheen", "Toon", "Principled"]

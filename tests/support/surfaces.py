@@ -27,12 +27,21 @@ def add_ball(material: Any, is_smooth: bool = True, columns: int = 8, rows: int 
     """A coarse ball with a UV map: columns mirrored by turns."""
     angles = np.linspace(0, 2 * np.pi, columns, endpoint=False)
     heights = np.linspace(0, np.pi, rows + 1)[1:-1]
-    vertices = [(np.sin(b) * np.cos(a), np.sin(b) * np.sin(a), np.cos(b)) for b in heights for a in angles]
+    vertices = [
+        (np.sin(b) * np.cos(a), np.sin(b) * np.sin(a), np.cos(b)) for b in heights for a in angles
+    ]
     faces, uvs = [], []
     for row in range(len(heights) - 1):
         for i in range(columns):
             j = (i + 1) % columns
-            faces.append([row * columns + i, (row + 1) * columns + i, (row + 1) * columns + j, row * columns + j])
+            faces.append(
+                [
+                    row * columns + i,
+                    (row + 1) * columns + i,
+                    (row + 1) * columns + j,
+                    row * columns + j,
+                ]
+            )
             left, right = (i + 1, i) if i % 2 else (i, i + 1)
             v = row / 4
             uvs += [(left / 4, v + 0.25), (left / 4, v), (right / 4, v), (right / 4, v + 0.25)]
@@ -48,7 +57,11 @@ def place_before_camera(made: Any) -> None:
     """Scaled, turned, parented, and seen in perspective."""
     parent = bpy.data.objects.new("Parent", None)
     bpy.context.scene.collection.objects.link(parent)
-    parent.location, parent.rotation_euler, parent.scale = (0.1, 0.2, -0.1), (0.2, 0.1, 0.5), (1.2, 1.2, 1.2)
+    parent.location, parent.rotation_euler, parent.scale = (
+        (0.1, 0.2, -0.1),
+        (0.2, 0.1, 0.5),
+        (1.2, 1.2, 1.2),
+    )
     made.parent = parent
     made.scale, made.rotation_euler = (1.0, 0.7, 1.3), (0.4, 0.3, 0.2)
     # Of a mesh that only one object has, Cycles interpolates normals after the scaling.

@@ -73,8 +73,9 @@ std::optional<BsdfSample> Bsdf::sample(Vec3f wo, float choice, Vec2f u) const {
   const Vec3f wi = is_straight ? -wo : frame.to_world(lobe->wi) * side.sign;
   if (!is_straight && leaks(side, wi, lobe->wi)) return std::nullopt;
 
-  BsdfSample sample{wi, weighted.weight * lobe->weight, lobe->pdf, lobe->is_delta, lobe->kind,
-                    std::holds_alternative<Translucent>(weighted.lobe)};
+  BsdfSample sample{wi,         weighted.weight * lobe->weight,
+                    lobe->pdf,  lobe->is_delta,
+                    lobe->kind, std::holds_alternative<Translucent>(weighted.lobe)};
   if (lobe->is_delta) {
     sample.weight *= 1 / probability;
     sample.pdf = probability;

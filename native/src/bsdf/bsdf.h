@@ -104,7 +104,8 @@ class Bsdf {
   // Where all light must come from that eval() is to see: the side of a surface with this normal, of unit length. Zero
   // where it may come from anywhere.
   [[nodiscard]] Vec3f lit_side(Vec3f wo) const {
-    return only_reflects_ && !is_turned() ? frame_.normal * (dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f) : Vec3f(0.0f);
+    return only_reflects_ && !is_turned() ? frame_.normal * (dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f)
+                                          : Vec3f(0.0f);
   }
   // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }

@@ -46,9 +46,9 @@ class PathIntegrator final : public Integrator {
   // A light sample that is worth testing for shadow.
   struct Connection {
     std::uint32_t sample;
-    Color radiance;           // if nothing is in the way
+    Color radiance;   // if nothing is in the way
     Bounces bounces;  // before it
-    float limit;              // clamps the radiance, as in clamp_light()
+    float limit;      // clamps the radiance, as in clamp_light()
     Destination destination;
     std::uint32_t filing;  // in the passes: PassRecorder's
   };

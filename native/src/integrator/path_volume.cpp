@@ -310,8 +310,7 @@ void PathIntegrator::connect_through_media(std::span<PixelSample> samples) {
       connection.radiance *= transmittance(extinction, point.t - ray.t_min);
       if (!material.is_boundary) {
         if (++connection.bounces.transparent > scene_.settings.transparent_bounces) continue;
-        connection.radiance *=
-            transparency_at(scene_, point, -ray.direction, shadow_context(connection, point));
+        connection.radiance *= transparency_at(scene_, point, -ray.direction, shadow_context(connection, point));
       }
       if (is_black(connection.radiance)) continue;
       cross_surface(media, point);

@@ -41,7 +41,7 @@ struct PreparedScene {
   std::optional<CameraWindow> window;
   // How wide a pixel in the middle is at the camera, and how much wider with each metre.
   float pixel_width = 0, pixel_spread = 0;
-  Shutter shutter;             // for what moves
+  Shutter shutter;  // for what moves
   RenderSettings settings;
   std::vector<Shape> shapes;
   std::vector<std::uint64_t> shape_revisions;

@@ -33,10 +33,10 @@ struct ShadingContext {
   const Placement* placement = nullptr;
   const ObjectInfo* object = nullptr;
   const TransformD* world_to_camera = nullptr;  // z points where the camera looks
-  const CameraWindow* window = nullptr;          // none of a panorama
-  float footprint = 0;                           // how wide the ray is there, metres; 0 is unknown
+  const CameraWindow* window = nullptr;         // none of a panorama
+  float footprint = 0;                          // how wide the ray is there, metres; 0 is unknown
   int object_index = 0, material_index = 0;
-  std::uint32_t ray_kinds = 0;  // RayKind bits
+  std::uint32_t ray_kinds = 0;                               // RayKind bits
   bool is_singular_ray = false, is_translucent_ray = false;  // it left a mirror or smooth glass; a translucent shader
   int bounces = 0, diffuse_bounces = 0, glossy_bounces = 0, transmission_bounces = 0, transparent_bounces = 0;
 };

@@ -20,8 +20,9 @@ using Operation =
     std::variant<MathOperation, VectorMathOperation, MapRangeOperation, ComponentOperation, CombineOperation,
                  MixOperation, TableOperation, ConvertColorOperation, HueSaturationOperation, ToneOperation,
                  MappingOperation, RotateOperation, TransformOperation, ChangeSpaceOperation, SurfaceOperation,
-                 AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation, BumpOperation, ImageOperation,
-                 CheckerOperation, GradientOperation, WaveOperation, MagicOperation, BrickOperation, NoiseOperation,
-                 WhiteNoiseOperation, VoronoiOperation, GaborOperation>;
+                 AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation,
+                 BumpOperation, ImageOperation, CheckerOperation, GradientOperation, WaveOperation, MagicOperation,
+                 BrickOperation, NoiseOperation, WhiteNoiseOperation, VoronoiOperation,
+                 GaborOperation>;
 
 }  // namespace basicrt
