@@ -19,8 +19,8 @@ ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "docs" / "nodes.md"
 # Nodes that only hold others or end a tree.
 STRUCTURE = ("Output", "Group", "Tree", "CustomGroup")
-# Nodes of other uses: lamps' and line styles' own, and those that only the background has.
-ELSEWHERE = {"ShaderNodeBackground", "ShaderNodeTexEnvironment", "ShaderNodeTexSky"}
+# Nodes that only the background of a world has.
+ELSEWHERE = {"ShaderNodeBackground", "ShaderNodeTexSky"}
 
 # Of a node's own properties, those that don't change what it computes.
 LABELS = {"label", "name", "bl_idname", "bl_label", "bl_icon", "bl_description", "location"}
@@ -28,10 +28,10 @@ LABELS = {"label", "name", "bl_idname", "bl_label", "bl_icon", "bl_description",
 HEADER = """\
 # Shader nodes
 
-What the extension makes of each shader node of Blender {version} in a material: with its defaults, with each of its
-inputs linked, with each of its settings. `tools/node_table.py` writes this page by translating them, and
-`tests/blender/test_node_table.py` holds it against the code. In Blender the render properties list the same for a scene.
-Environment and sky textures are for the background of a world.
+What the extension makes of each shader node of Blender {version} in a material: with its defaults, with each
+of its inputs linked, with each of its settings. `tools/node_table.py` writes this page by translating them, and
+`tests/blender/test_node_table.py` holds it against the code. In Blender the render properties list the same
+for a scene. Sky Texture is for the background of a world.
 
 | node | drawn | not as in Blender |
 |---|---|---|

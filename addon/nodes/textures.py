@@ -68,7 +68,9 @@ def environment_lookup(of: Operands, _output: str) -> Value:
         (converted.key, interpolation),
         lambda: basicrt.ImageTexture(converted.image, interpolation=interpolation),
     )
-    vector = of.vector("Vector") if of.is_linked("Vector") else surface(of, "vector", "position").data
+    vector = (
+        of.vector("Vector") if of.is_linked("Vector") else surface(of, "vector", "position").data
+    )
     made = basicrt.TextureOperation(
         texture=texture, vector=vector, projection=of.node.projection.lower()
     )

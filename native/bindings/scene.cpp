@@ -4,6 +4,7 @@
 
 #include <pybind11/typing.h>
 
+#include "base/error.h"
 #include "bsdf/draw_environment.h"
 #include "described.h"
 #include "io/sample_range.h"
@@ -81,8 +82,8 @@ Image draw_environment_in(BoundScene& self, const Material& material, int width,
   alone.materials.append(material);
   const py::gil_scoped_release release;
   validate_description(alone);
-  return draw_environment(material, alone.textures,
-                          {.width = width, .height = height, .is_camera_ray = is_camera_ray}, 0);
+  return draw_environment(material, alone.textures, {.width = width, .height = height, .is_camera_ray = is_camera_ray},
+                          0);
 }
 
 void bind_instance(py::module_& m) {

@@ -95,7 +95,9 @@ def brick_wall(scene: bpy.types.Scene) -> None:
     """Bricks on the wall, checks on the floor, marble on the ball."""
     graph = Graph("Bricks")
     place = graph.node("NewGeometry").outputs["Position"]
-    turned = graph.node("Mapping", Vector=place, Rotation=(math.pi / 2, 0, 0), Scale=(0.4, 0.4, 0.4))
+    turned = graph.node(
+        "Mapping", Vector=place, Rotation=(math.pi / 2, 0, 0), Scale=(0.4, 0.4, 0.4)
+    )
     bricks = graph.node("TexBrick", Vector=turned.outputs[0], Color1=(0.5, 0.15, 0.1))
     marble = Graph("Marble")
     wave = marble.node(
@@ -147,9 +149,7 @@ def cut_leaves(scene: bpy.types.Scene) -> None:
     stained = Graph("Stained")
     color = stained.node("TexMagic", Vector=stained.coordinates("Generated"), Scale=3.0)
     window = stained.finish(stained.node("BsdfTransparent", Color=color.outputs["Color"]))
-    stage.rectangle(
-        "Leaf", [(-2, -1.5, 1.6), (0, -1.5, 1.6), (0, 0.5, 1.9), (-2, 0.5, 1.9)], leaf
-    )
+    stage.rectangle("Leaf", [(-2, -1.5, 1.6), (0, -1.5, 1.6), (0, 0.5, 1.9), (-2, 0.5, 1.9)], leaf)
     stage.rectangle(
         "Window", [(0.2, -1.4, 0), (1.6, -1.6, 0), (1.6, -1.6, 1.2), (0.2, -1.4, 1.2)], window
     )

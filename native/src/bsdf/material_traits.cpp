@@ -44,7 +44,8 @@ Material transparent_part(Material material) {
       [](const TransparentShader&) { return true; },
       [](const PrincipledShader& node) { return node.alpha.is_varying() || node.alpha.constant < 1; },
       [&](const MixShader& node) { return any(node.first, node.second); },
-      [&](const AddShader& node) { return any(node.first, node.second); }, [](const auto& /*opaque*/) { return false; }};
+      [&](const AddShader& node) { return any(node.first, node.second); },
+      [](const auto& /*opaque*/) { return false; }};
   for (std::size_t i = 0; i < material.nodes.size(); ++i) {
     ShaderNode& node = material.nodes[i];
     lets_through[i] = std::visit(may_let_through, node);

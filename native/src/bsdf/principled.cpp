@@ -82,8 +82,8 @@ class Principled {
     if (tint != Color(1.0f) || !film().is_none()) {
       FilmDielectric lobe{.eta = eta,
                           .alpha = node_.roughness * node_.roughness,
-                          .film = ThinFilm(node_.thin_film_thickness,
-                                           target_.is_back ? node_.thin_film_ior / node_.ior : node_.thin_film_ior.constant)};
+                          .film = ThinFilm(node_.thin_film_thickness, target_.is_back ? node_.thin_film_ior / node_.ior
+                                                                                      : node_.thin_film_ior.constant)};
       lobe.f0_tint = PackedColor<1>(tint);
       lobe.transmit_tint = PackedColor<1>(color);
       add_film_glass(target_, lobe, node_.roughness, node_.distribution, color, weight);

@@ -22,7 +22,6 @@ using Operation =
                  MappingOperation, RotateOperation, TransformOperation, ChangeSpaceOperation, SurfaceOperation,
                  AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation,
                  BumpOperation, ImageOperation, CheckerOperation, GradientOperation, WaveOperation, MagicOperation,
-                 BrickOperation, NoiseOperation, WhiteNoiseOperation, VoronoiOperation,
-                 GaborOperation>;
+                 BrickOperation, NoiseOperation, WhiteNoiseOperation, VoronoiOperation, GaborOperation>;
 
 }  // namespace basicrt

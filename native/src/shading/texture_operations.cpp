@@ -114,7 +114,8 @@ Vec3f eval(const ImageOperation& node, const Evaluator& in) {
     case TextureProjection::mirror_ball:
       return at(project_direction(EnvironmentProjection::mirror_ball, place));
     case TextureProjection::box: {
-      const Vec3f normal = eval(SurfaceOperation{SurfaceValue::object_normal}, in), shares = box_shares(abs(normal), node.blend);
+      const Vec3f normal = eval(SurfaceOperation{SurfaceValue::object_normal}, in),
+                  shares = box_shares(abs(normal), node.blend);
       Vec3f sum(0.0f);
       // Each pair of sides is seen the right way round from outside.
       if (shares.x > 0) sum += at({normal.x < 0 ? 1 - place.y : place.y, place.z}) * shares.x;

@@ -91,10 +91,11 @@ struct ChangeSpaceOperation {
   static constexpr std::string_view kind = "change_space";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("vector", &ChangeSpaceOperation::vector, "what is transformed"),
-                      field("source", &ChangeSpaceOperation::source, "world, object or camera (where z points forwards)"),
-                      field("target", &ChangeSpaceOperation::target, "world, object or camera (where z points forwards)"),
-                      field("quantity", &ChangeSpaceOperation::quantity, "what it is: point, vector or normal")};
+    return std::tuple{
+        field("vector", &ChangeSpaceOperation::vector, "what is transformed"),
+        field("source", &ChangeSpaceOperation::source, "world, object or camera (where z points forwards)"),
+        field("target", &ChangeSpaceOperation::target, "world, object or camera (where z points forwards)"),
+        field("quantity", &ChangeSpaceOperation::quantity, "what it is: point, vector or normal")};
   }
 };
 

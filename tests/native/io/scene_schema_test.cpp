@@ -38,8 +38,7 @@ Json vector_schema(int size, const Range& range) {
 }
 
 template <class Input>
-constexpr auto input_name =
-    std::same_as<Input, ColorInput> ? "#/$defs/vector_input" : "#/$defs/number_input";
+constexpr auto input_name = std::same_as<Input, ColorInput> ? "#/$defs/vector_input" : "#/$defs/number_input";
 
 // A constant within a range, a texture or an operation.
 template <class Input>
@@ -48,8 +47,7 @@ Json input_schema(const Range& range) {
   if constexpr (std::same_as<Input, NumberInput>)
     return {{"oneOf", {range_schema("number", range), {{"$ref", "#/$defs/texture_share"}}, operation}}};
   else
-    return {{"oneOf",
-             {vector_schema(3, range), {{"description", "a texture's name"}, {"type", "string"}}, operation}}};
+    return {{"oneOf", {vector_schema(3, range), {{"description", "a texture's name"}, {"type", "string"}}, operation}}};
 }
 
 // What JSON a field of that type takes.

@@ -211,7 +211,8 @@ TEST(Operations, gamma_of_zero_is_white) {
 
 TEST(Operations, hues_beyond_a_turn_are_in_the_last_sector) {
   const auto color = [](float hue) {
-    return value_of(ConvertColorOperation{.color = Vec3f(hue, 1, 1), .source = ColorModel::hsv, .target = ColorModel::rgb});
+    return value_of(
+        ConvertColorOperation{.color = Vec3f(hue, 1, 1), .source = ColorModel::hsv, .target = ColorModel::rgb});
   };
   EXPECT_EQ(color(1), Vec3f(1, 0, 0));
   EXPECT_EQ(color(1.125f), Vec3f(1, 0, 0.25f));
