@@ -72,8 +72,9 @@ class Trial:
         """Link an output to where it is seen."""
         socket = next(s for s in self.node.outputs if s.identifier == output)
         target = self.tree.nodes.new("ShaderNodeOutputMaterial").inputs
-        place = target["Volume" if is_volume(self.node.bl_idname) else "Surface"]
-        if socket.type != "SHADER":
+        name = "Volume" if is_volume(self.node.bl_idname) else "Surface"
+        place = target["Displacement" if output == "Displacement" else name]
+        if socket.type != "SHADER" and output != "Displacement":
             emission = self.tree.nodes.new("ShaderNodeEmission")
             self.tree.links.new(emission.outputs[0], place)
             place = emission.inputs["Color"]
@@ -100,8 +101,10 @@ class Trial:
         import basicrt
 
         report = Report()
+        scene = basicrt.Scene()
+        scene.camera = basicrt.PerspectiveCamera()
         with contextlib.redirect_stdout(io.StringIO()):
-            translate_surface(self.material, report, Textures(basicrt.Scene()))
+            translate_surface(self.material, report, Textures(scene))
         bpy.data.materials.remove(self.material)
         return [text.split(": ", 1)[1] for text in report.warnings]
 

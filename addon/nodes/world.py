@@ -67,7 +67,7 @@ def _layers(
 ) -> list[basicrt.EnvironmentLayer]:
     """The pictures and colours that the nodes add up, or else a picture of what they compute."""
     held = HeldReport()
-    translation = Translation(item, held, basicrt.Material(), store)
+    translation = Translation(item, held, basicrt.Material(), store, is_world=True)
     try:
         layers = list(_shader_layers(translation, place, 1.0, "all"))
     except _NotLayersError:

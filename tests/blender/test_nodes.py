@@ -483,7 +483,7 @@ def test_a_normal_that_cannot_be_had_is_reported() -> None:
     diffuse = add_node(tree, "ShaderNodeBsdfDiffuse", Color=COLOR)
     tree.links.new(tree.nodes.new("ShaderNodeBevel").outputs[0], diffuse.inputs["Normal"])
     tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
-    only_node(material, 'node "Diffuse BSDF": Normal is not supported and left out')
+    only_node(material, 'node "Bevel": not supported: edges stay sharp')
 
 
 def test_displacement_by_vectors_is_reported() -> None:
