@@ -7,32 +7,18 @@
 
 #include "bsdf/albedo_tables.h"
 #include "bsdf/fresnel.h"
+#include "bsdf/table_lookup.h"
 
 namespace basicrt {
 namespace {
 
 namespace tables = albedo_tables;
 
-// A place on an axis of `nodes` nodes, for a coordinate in [0, 1].
-struct AxisPlace {
-  int index;
-  float fraction;
-};
-
-AxisPlace find_place(float coordinate, int nodes) {
-  const float place = std::clamp(coordinate, 0.0f, 1.0f) * static_cast<float>(nodes - 1);
-  const int index = std::min(static_cast<int>(place), nodes - 2);
-  return {index, place - static_cast<float>(index)};
-}
-
-float look_up(const std::uint16_t* table, AxisPlace x) {
-  return lerp(float(table[x.index]), float(table[x.index + 1]), x.fraction) / tables::unit;
-}
+float look_up(const std::uint16_t* table, AxisPlace x) { return basicrt::look_up(table, tables::unit, x); }
 
 // Two axes, the roughness last.
 float look_up(const std::uint16_t* table, AxisPlace x, AxisPlace roughness) {
-  const std::uint16_t* row = table + x.index * tables::roughnesses;
-  return lerp(look_up(row, roughness), look_up(row + tables::roughnesses, roughness), x.fraction);
+  return basicrt::look_up(table, tables::unit, tables::roughnesses, x, roughness);
 }
 
 float look_up(const std::uint16_t* table, AxisPlace ior, AxisPlace cosine, AxisPlace roughness) {

@@ -34,18 +34,18 @@ Color albedo_of(const AnyLobe& /*lobe*/, float /*cos_theta*/) {
   return Color(1.0f);
 }
 
-Color albedo_of(const Dielectric& lobe, float cos_theta, ScatterKind kind) {
-  Dielectric part = lobe;
-  (kind == ScatterKind::glossy ? part.transmit_tint : part.reflect_tint) = Color(0.0f);
-  const Color smooth = part.albedo(cos_theta);
-  if (!(lobe.alpha > 0)) return smooth;
-  return smooth / glass_multiple_scattering(std::sqrt(lobe.alpha), lobe.eta, cos_theta, Color(1.0f));
+void remove_other(Dielectric& lobe, ScatterKind kind) {
+  (kind == ScatterKind::glossy ? lobe.transmit_tint : lobe.reflect_tint) = Color(0.0f);
+}
+void remove_other(FilmDielectric& lobe, ScatterKind kind) {
+  (kind == ScatterKind::glossy ? lobe.is_transmitting : lobe.is_reflecting) = false;
 }
 
-Color albedo_of(const FilmDielectric& lobe, float cos_theta, ScatterKind kind) {
-  FilmDielectric part = lobe;
-  (kind == ScatterKind::glossy ? part.is_transmitting : part.is_reflecting) = false;
-  const Color smooth = part.albedo(cos_theta);
+// Of one that reflects and transmits, what it scatters in one of these ways.
+template <class AnyDielectric>
+Color albedo_of(AnyDielectric lobe, float cos_theta, ScatterKind kind) {
+  remove_other(lobe, kind);
+  const Color smooth = lobe.albedo(cos_theta);
   if (!(lobe.alpha > 0)) return smooth;
   return smooth / glass_multiple_scattering(std::sqrt(lobe.alpha), lobe.eta, cos_theta, Color(1.0f));
 }

@@ -229,13 +229,17 @@ void TileAccumulator::write_values(const PassInfo& info, std::size_t index, floa
   }
 }
 
-// By coverage, then by id; what is left of the ranks stays empty.
+void TileAccumulator::rank_mattes() {
+  for (std::vector<Matte>& known : mattes_)
+    std::ranges::sort(known, [](const Matte& a, const Matte& b) {
+      return a.coverage != b.coverage ? a.coverage > b.coverage : a.id < b.id;
+    });
+}
+
+// What is left of the ranks stays empty.
 void TileAccumulator::write_mattes(const PassInfo& info, std::size_t index, float* out) const {
   const auto number = static_cast<std::size_t>(info.pass) - static_cast<std::size_t>(Pass::crypto_object);
-  std::vector<Matte> ranked = mattes_[index * matte_kinds + number / matte_passes];
-  std::ranges::sort(ranked, [](const Matte& a, const Matte& b) {
-    return a.coverage != b.coverage ? a.coverage > b.coverage : a.id < b.id;
-  });
+  const std::vector<Matte>& ranked = mattes_[index * matte_kinds + number / matte_passes];
   const float scale = 1 / static_cast<float>(std::max(pixels_[index].positive.count, 1));
   for (std::size_t i = 0; i < 2; ++i) {
     const std::size_t rank = number % matte_passes * 2 + i;
@@ -247,6 +251,7 @@ void TileAccumulator::write_mattes(const PassInfo& info, std::size_t index, floa
 
 Tile TileAccumulator::finish() {
   sum_blocks();
+  rank_mattes();
   Tile tile{rect_, layout_, std::vector<float>(pixel_count() * layout_.channel_count())};
   float* out = tile.values.data();
   const auto write_own = [&](Pass pass, std::size_t i) {

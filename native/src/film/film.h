@@ -122,6 +122,7 @@ class TileAccumulator {
   void sum_blocks();
   [[nodiscard]] float mean_value(std::size_t index, Pass pass, std::size_t channel) const;
   void write_values(const PassInfo& info, std::size_t index, float* out) const;
+  void rank_mattes();  // by coverage, then by id
   void write_mattes(const PassInfo& info, std::size_t index, float* out) const;
 
   PixelRect rect_;
