@@ -14,9 +14,17 @@ import typing
 __all__: list[str] = [
     "AddShader",
     "AreaLight",
+    "AttributeOperation",
+    "BrickOperation",
+    "BumpOperation",
+    "ChangeSpaceOperation",
+    "CheckerOperation",
     "CheckerboardTexture",
+    "CombineOperation",
+    "ComponentOperation",
     "ConductorShader",
     "ConstantTexture",
+    "ConvertColorOperation",
     "CubemapFaceCamera",
     "CylindricalCamera",
     "DiffuseShader",
@@ -27,20 +35,32 @@ __all__: list[str] = [
     "FisheyeEquidistantCamera",
     "FisheyeEquisolidCamera",
     "FisheyePolynomialCamera",
+    "FresnelOperation",
+    "GaborOperation",
     "GlassShader",
     "GlossyShader",
+    "GradientOperation",
     "HoldoutShader",
+    "HueSaturationOperation",
     "Image",
     "ImageTexture",
     "Instance",
     "InstanceTable",
     "LightTable",
+    "MagicOperation",
+    "MapRangeOperation",
+    "MappingOperation",
     "Material",
     "MaterialTable",
+    "MathOperation",
     "Mesh",
     "MetallicShader",
+    "MixOperation",
     "MixShader",
     "MultipleScatteringSky",
+    "NoiseOperation",
+    "NormalMapOperation",
+    "OperationRef",
     "OrthographicCamera",
     "PassInfo",
     "PerspectiveCamera",
@@ -50,6 +70,7 @@ __all__: list[str] = [
     "Progress",
     "RefractionShader",
     "RenderSettings",
+    "RotateOperation",
     "Scene",
     "SceneError",
     "SceneWarning",
@@ -60,14 +81,25 @@ __all__: list[str] = [
     "Sphere",
     "SpotLight",
     "SunLight",
+    "SurfaceOperation",
+    "TableOperation",
+    "TangentOperation",
+    "TextureOperation",
     "TextureRef",
     "TextureTable",
     "Tile",
     "TileIterator",
+    "ToneOperation",
     "ToonShader",
+    "TransformOperation",
     "TranslucentShader",
     "TransparentShader",
+    "VectorMathOperation",
     "VolumeShader",
+    "VoronoiOperation",
+    "WaveOperation",
+    "WhiteNoiseOperation",
+    "WireframeOperation",
     "load_scene",
     "look_at_camera",
     "merge_sums",
@@ -94,7 +126,9 @@ class Mesh:
     material_slots (T,) uint32, without them every triangle has slot 0. A mesh that deforms has motion_positions
     (K, V, 3) float32 and, where it has corner_normals, motion_corner_normals (K, T, 3, 3) or (K, 3T, 3) float32: those at K
     further times, equally spaced; the others are when the shutter opens, the last of these when it closes, and all is
-    linear between them. Other real (or integer) types are converted.
+    linear between them. attributes are (name, domain, values): domain "vertex", "corner" or "face", values (N, 3) float32 for
+    each vertex, each corner of the triangles or each triangle. texture_space is where generated coordinates are 0, and how
+    far from there they are 1. Other real (or integer) types are converted.
     Raises SceneError naming the array, the rule and the value.
     """
     def __init__(
@@ -107,8 +141,24 @@ class Mesh:
         material_slots: numpy.typing.ArrayLike | None = None,
         motion_positions: numpy.typing.ArrayLike | None = None,
         motion_corner_normals: numpy.typing.ArrayLike | None = None,
+        attributes: collections.abc.Sequence[tuple[str, str, numpy.typing.ArrayLike]] = [],
+        texture_space: typing.Annotated[
+            collections.abc.Sequence[
+                typing.Annotated[
+                    collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+                    "FixedSize(3)",
+                ]
+            ],
+            "FixedSize(2)",
+        ]
+        | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def attributes(self) -> list[tuple[str, str, numpy.typing.NDArray[numpy.float32]]]:
+        """
+        names, domains and values, (N, 3) float32
+        """
     @property
     def corner_normals(self) -> numpy.typing.NDArray[numpy.float32] | None:
         """
@@ -133,6 +183,13 @@ class Mesh:
     def positions(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         (V, 3) float32, object space, metres
+        """
+    @property
+    def texture_space(
+        self,
+    ) -> typing.Annotated[list[typing.Annotated[list[float], "FixedSize(3)"]], "FixedSize(2)"]:
+        """
+        where generated coordinates are 0, and how far from there they are 1
         """
     @property
     def triangles(self) -> numpy.typing.NDArray[numpy.uint32]:
@@ -328,41 +385,2089 @@ class ImageTexture:
     @uv_transform.setter
     def uv_transform(self, value: numpy.typing.ArrayLike) -> None: ...
 
+class OperationRef:
+    """
+    Stands for the value of one of a material's operations.
+    """
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(self, index: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def index(self) -> int: ...
+
+class MathOperation:
+    """
+    A number from up to three.
+
+    operation: named as in Blender's Math node, in small letters
+    a: first number
+    b: second, where there is one
+    c: third, where there is one
+    clamp: limits the result to [0, 1]
+    """
+    def __init__(
+        self,
+        operation: str = "add",
+        a: float | TextureRef | OperationRef = 0.5,
+        b: float | TextureRef | OperationRef = 0.5,
+        c: float | TextureRef | OperationRef = 0.5,
+        clamp: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def a(self) -> float | TextureRef | OperationRef:
+        """
+        first number
+        """
+    @a.setter
+    def a(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def b(self) -> float | TextureRef | OperationRef:
+        """
+        second, where there is one
+        """
+    @b.setter
+    def b(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def c(self) -> float | TextureRef | OperationRef:
+        """
+        third, where there is one
+        """
+    @c.setter
+    def c(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def clamp(self) -> bool:
+        """
+        limits the result to [0, 1]
+        """
+    @clamp.setter
+    def clamp(self, value: bool) -> None: ...
+    @property
+    def operation(self) -> str:
+        """
+        named as in Blender's Math node, in small letters
+        """
+    @operation.setter
+    def operation(self, value: str) -> None: ...
+
+class VectorMathOperation:
+    """
+    A vector, or a number, from up to three vectors.
+
+    operation: named as in Blender's Vector Math node, in small letters
+    a: first vector
+    b: second, where there is one
+    c: third, where there is one
+    scale: of scale; the refractive index of refract
+    """
+    def __init__(
+        self,
+        operation: str = "add",
+        a: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (
+            0.0,
+            0.0,
+            0.0,
+        ),
+        b: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (
+            0.0,
+            0.0,
+            0.0,
+        ),
+        c: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (
+            0.0,
+            0.0,
+            0.0,
+        ),
+        scale: float | TextureRef | OperationRef = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def a(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        first vector
+        """
+    @a.setter
+    def a(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def b(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        second, where there is one
+        """
+    @b.setter
+    def b(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def c(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        third, where there is one
+        """
+    @c.setter
+    def c(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def operation(self) -> str:
+        """
+        named as in Blender's Vector Math node, in small letters
+        """
+    @operation.setter
+    def operation(self, value: str) -> None: ...
+    @property
+    def scale(self) -> float | TextureRef | OperationRef:
+        """
+        of scale; the refractive index of refract
+        """
+    @scale.setter
+    def scale(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class MapRangeOperation:
+    """
+    Numbers from one range to another.
+
+    value: each number of it by itself
+    from_min: becomes to_min
+    from_max: becomes to_max
+    to_min: what from_min becomes
+    to_max: what from_max becomes
+    steps: stepped: how many
+    interpolation: linear, stepped, smoothstep or smootherstep
+    clamp: limits linear and stepped results to the new range
+    """
+    def __init__(
+        self,
+        value: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+        from_min: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        from_max: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+        to_min: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        to_max: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+        steps: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (4.0, 4.0, 4.0),
+        interpolation: str = "linear",
+        clamp: bool = True,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def clamp(self) -> bool:
+        """
+        limits linear and stepped results to the new range
+        """
+    @clamp.setter
+    def clamp(self, value: bool) -> None: ...
+    @property
+    def from_max(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        becomes to_max
+        """
+    @from_max.setter
+    def from_max(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def from_min(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        becomes to_min
+        """
+    @from_min.setter
+    def from_min(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def interpolation(self) -> str:
+        """
+        linear, stepped, smoothstep or smootherstep
+        """
+    @interpolation.setter
+    def interpolation(self, value: str) -> None: ...
+    @property
+    def steps(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        stepped: how many
+        """
+    @steps.setter
+    def steps(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def to_max(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        what from_max becomes
+        """
+    @to_max.setter
+    def to_max(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def to_min(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        what from_min becomes
+        """
+    @to_min.setter
+    def to_min(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def value(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        each number of it by itself
+        """
+    @value.setter
+    def value(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class ComponentOperation:
+    """
+    A number of a vector or colour.
+
+    value: a vector or a colour
+    component: x, y, z, average or luminance
+    """
+    def __init__(
+        self,
+        value: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        component: str = "x",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def component(self) -> str:
+        """
+        x, y, z, average or luminance
+        """
+    @component.setter
+    def component(self, value: str) -> None: ...
+    @property
+    def value(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        a vector or a colour
+        """
+    @value.setter
+    def value(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class CombineOperation:
+    """
+    A vector or colour of three numbers.
+
+    x: first number
+    y: second number
+    z: third number
+    """
+    def __init__(
+        self,
+        x: float | TextureRef | OperationRef = 0.0,
+        y: float | TextureRef | OperationRef = 0.0,
+        z: float | TextureRef | OperationRef = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def x(self) -> float | TextureRef | OperationRef:
+        """
+        first number
+        """
+    @x.setter
+    def x(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def y(self) -> float | TextureRef | OperationRef:
+        """
+        second number
+        """
+    @y.setter
+    def y(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def z(self) -> float | TextureRef | OperationRef:
+        """
+        third number
+        """
+    @z.setter
+    def z(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class MixOperation:
+    """
+    Two colours blended.
+
+    blend: named as in Blender's Mix node, in small letters
+    factor: 0 is all a, 1 all b blended; only mix has one for each channel
+    a: first colour
+    b: second colour
+    clamp_factor: limits the factor to [0, 1]
+    clamp: limits the result to [0, 1]
+    """
+    def __init__(
+        self,
+        blend: str = "mix",
+        factor: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.5, 0.5, 0.5),
+        a: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (
+            0.5,
+            0.5,
+            0.5,
+        ),
+        b: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (
+            0.5,
+            0.5,
+            0.5,
+        ),
+        clamp_factor: bool = True,
+        clamp: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def a(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        first colour
+        """
+    @a.setter
+    def a(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def b(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        second colour
+        """
+    @b.setter
+    def b(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def blend(self) -> str:
+        """
+        named as in Blender's Mix node, in small letters
+        """
+    @blend.setter
+    def blend(self, value: str) -> None: ...
+    @property
+    def clamp(self) -> bool:
+        """
+        limits the result to [0, 1]
+        """
+    @clamp.setter
+    def clamp(self, value: bool) -> None: ...
+    @property
+    def clamp_factor(self) -> bool:
+        """
+        limits the factor to [0, 1]
+        """
+    @clamp_factor.setter
+    def clamp_factor(self, value: bool) -> None: ...
+    @property
+    def factor(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        0 is all a, 1 all b blended; only mix has one for each channel
+        """
+    @factor.setter
+    def factor(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class TableOperation:
+    """
+    Colours looked up by their channels.
+
+    value: what is looked up, each channel by itself
+    factor: 0 leaves the value as it is
+    colors: three numbers for each entry
+    minimum: the first entry's value
+    maximum: the last entry's value
+    interpolate: linearly between entries
+    extrapolate: beyond the ends straight on, else constant
+    """
+    def __init__(
+        self,
+        value: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.5, 0.5, 0.5),
+        factor: float | TextureRef | OperationRef = 1.0,
+        colors: collections.abc.Iterable[float] = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
+        minimum: float = 0.0,
+        maximum: float = 1.0,
+        interpolate: bool = True,
+        extrapolate: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def colors(self) -> list[float]:
+        """
+        three numbers for each entry
+        """
+    @colors.setter
+    def colors(self, value: collections.abc.Iterable[float]) -> None: ...
+    @property
+    def extrapolate(self) -> bool:
+        """
+        beyond the ends straight on, else constant
+        """
+    @extrapolate.setter
+    def extrapolate(self, value: bool) -> None: ...
+    @property
+    def factor(self) -> float | TextureRef | OperationRef:
+        """
+        0 leaves the value as it is
+        """
+    @factor.setter
+    def factor(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def interpolate(self) -> bool:
+        """
+        linearly between entries
+        """
+    @interpolate.setter
+    def interpolate(self, value: bool) -> None: ...
+    @property
+    def maximum(self) -> float:
+        """
+        the last entry's value
+        """
+    @maximum.setter
+    def maximum(self, value: float) -> None: ...
+    @property
+    def minimum(self) -> float:
+        """
+        the first entry's value
+        """
+    @minimum.setter
+    def minimum(self, value: float) -> None: ...
+    @property
+    def value(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        what is looked up, each channel by itself
+        """
+    @value.setter
+    def value(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class ConvertColorOperation:
+    """
+    A colour in another model.
+
+    color: three numbers
+    source: what they are: rgb, hsv or hsl
+    target: what they become: rgb, hsv or hsl
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        source: str = "rgb",
+        target: str = "hsv",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        three numbers
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def source(self) -> str:
+        """
+        what they are: rgb, hsv or hsl
+        """
+    @source.setter
+    def source(self, value: str) -> None: ...
+    @property
+    def target(self) -> str:
+        """
+        what they become: rgb, hsv or hsl
+        """
+    @target.setter
+    def target(self, value: str) -> None: ...
+
+class HueSaturationOperation:
+    """
+    A colour with another hue, saturation, value.
+
+    color: the colour to change
+    hue: 0.5 leaves it as it is; 1 is once around
+    saturation: multiplies the saturation
+    value: multiplies the value
+    factor: 0 leaves the colour as it is
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        hue: float | TextureRef | OperationRef = 0.5,
+        saturation: float | TextureRef | OperationRef = 1.0,
+        value: float | TextureRef | OperationRef = 1.0,
+        factor: float | TextureRef | OperationRef = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        the colour to change
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def factor(self) -> float | TextureRef | OperationRef:
+        """
+        0 leaves the colour as it is
+        """
+    @factor.setter
+    def factor(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def hue(self) -> float | TextureRef | OperationRef:
+        """
+        0.5 leaves it as it is; 1 is once around
+        """
+    @hue.setter
+    def hue(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def saturation(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the saturation
+        """
+    @saturation.setter
+    def saturation(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def value(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the value
+        """
+    @value.setter
+    def value(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class ToneOperation:
+    """
+    A colour with each channel changed.
+
+    change: gamma, bright_contrast or invert
+    color: the colour to change
+    a: the exponent, the brightness, or the share that is inverted
+    b: bright_contrast: the contrast
+    """
+    def __init__(
+        self,
+        change: str = "gamma",
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        a: float | TextureRef | OperationRef = 1.0,
+        b: float | TextureRef | OperationRef = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def a(self) -> float | TextureRef | OperationRef:
+        """
+        the exponent, the brightness, or the share that is inverted
+        """
+    @a.setter
+    def a(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def b(self) -> float | TextureRef | OperationRef:
+        """
+        bright_contrast: the contrast
+        """
+    @b.setter
+    def b(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def change(self) -> str:
+        """
+        gamma, bright_contrast or invert
+        """
+    @change.setter
+    def change(self, value: str) -> None: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        the colour to change
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class MappingOperation:
+    """
+    A point scaled, rotated and moved.
+
+    mapping: what is mapped: point, texture (backwards), vector or normal
+    vector: what is mapped
+    location: added
+    rotation: radians about x, then y, then z
+    scale: multiplied before the rotation
+    """
+    def __init__(
+        self,
+        mapping: str = "point",
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        location: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        rotation: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        scale: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def location(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        added
+        """
+    @location.setter
+    def location(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def mapping(self) -> str:
+        """
+        what is mapped: point, texture (backwards), vector or normal
+        """
+    @mapping.setter
+    def mapping(self, value: str) -> None: ...
+    @property
+    def rotation(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        radians about x, then y, then z
+        """
+    @rotation.setter
+    def rotation(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def scale(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        multiplied before the rotation
+        """
+    @scale.setter
+    def scale(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        what is mapped
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class RotateOperation:
+    """
+    A point rotated.
+
+    about: axis_angle, x_axis, y_axis, z_axis or euler_xyz
+    vector: what is turned
+    center: stays where it is
+    axis: axis_angle: of any length
+    rotation: euler_xyz: radians about x, then y, then z
+    angle: radians
+    invert: turns the other way
+    """
+    def __init__(
+        self,
+        about: str = "axis_angle",
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        center: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        axis: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 1.0),
+        rotation: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        angle: float | TextureRef | OperationRef = 0.0,
+        invert: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def about(self) -> str:
+        """
+        axis_angle, x_axis, y_axis, z_axis or euler_xyz
+        """
+    @about.setter
+    def about(self, value: str) -> None: ...
+    @property
+    def angle(self) -> float | TextureRef | OperationRef:
+        """
+        radians
+        """
+    @angle.setter
+    def angle(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def axis(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        axis_angle: of any length
+        """
+    @axis.setter
+    def axis(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def center(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        stays where it is
+        """
+    @center.setter
+    def center(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def invert(self) -> bool:
+        """
+        turns the other way
+        """
+    @invert.setter
+    def invert(self, value: bool) -> None: ...
+    @property
+    def rotation(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        euler_xyz: radians about x, then y, then z
+        """
+    @rotation.setter
+    def rotation(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        what is turned
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class TransformOperation:
+    """
+    A point transformed by a matrix.
+
+    vector: what is transformed
+    transform: of columns, rows first
+    quantity: what it is: point, vector or normal
+    """
+    def __init__(
+        self,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        transform: numpy.typing.ArrayLike = ...,
+        quantity: str = "point",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def quantity(self) -> str:
+        """
+        what it is: point, vector or normal
+        """
+    @quantity.setter
+    def quantity(self, value: str) -> None: ...
+    @property
+    def transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        of columns, rows first
+        """
+    @transform.setter
+    def transform(self, value: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        what is transformed
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class ChangeSpaceOperation:
+    """
+    A point from one space to another.
+
+    vector: what is transformed
+    source: world, object or camera (where z points forwards)
+    target: world, object or camera (where z points forwards)
+    quantity: what it is: point, vector or normal
+    """
+    def __init__(
+        self,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        source: str = "world",
+        target: str = "object",
+        quantity: str = "point",
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def quantity(self) -> str:
+        """
+        what it is: point, vector or normal
+        """
+    @quantity.setter
+    def quantity(self, value: str) -> None: ...
+    @property
+    def source(self) -> str:
+        """
+        world, object or camera (where z points forwards)
+        """
+    @source.setter
+    def source(self, value: str) -> None: ...
+    @property
+    def target(self) -> str:
+        """
+        world, object or camera (where z points forwards)
+        """
+    @target.setter
+    def target(self, value: str) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        what is transformed
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class SurfaceOperation:
+    """
+    Something of the point that is shaded.
+
+    value: what of the point: see docs/scene_format.md
+    """
+    def __init__(self, value: str = "position") -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def value(self) -> str:
+        """
+        what of the point: see docs/scene_format.md
+        """
+    @value.setter
+    def value(self, value: str) -> None: ...
+
+class AttributeOperation:
+    """
+    A named attribute of the mesh.
+
+    name: of the mesh's attribute
+    missing: where the mesh has none of that name
+    """
+    def __init__(self, name: str = "", missing: float = 0.0) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def missing(self) -> float:
+        """
+        where the mesh has none of that name
+        """
+    @missing.setter
+    def missing(self, value: float) -> None: ...
+    @property
+    def name(self) -> str:
+        """
+        of the mesh's attribute
+        """
+    @name.setter
+    def name(self, value: str) -> None: ...
+
+class FresnelOperation:
+    """
+    A weight by the angle of view.
+
+    of: fresnel, or Blender's Layer Weight: layer_fresnel or facing
+    value: the refractive index, or the layer weight's blend
+    normal: world space; zero is the surface's own
+    """
+    def __init__(
+        self,
+        of: str = "fresnel",
+        value: float | TextureRef | OperationRef = 1.5,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        world space; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def of(self) -> str:
+        """
+        fresnel, or Blender's Layer Weight: layer_fresnel or facing
+        """
+    @of.setter
+    def of(self, value: str) -> None: ...
+    @property
+    def value(self) -> float | TextureRef | OperationRef:
+        """
+        the refractive index, or the layer weight's blend
+        """
+    @value.setter
+    def value(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class NormalMapOperation:
+    """
+    A normal from a colour.
+
+    color: the normal, halved and moved by a half
+    strength: 0 is the surface's own normal; at least 0
+    space: tangent, object or world
+    tangent: an operation that gives the colour's x axis, object space; else it is that of uv
+    tangent_sign: the y axis is so often the normal cross the tangent
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.5, 0.5, 1.0),
+        strength: float | TextureRef | OperationRef = 1.0,
+        space: str = "tangent",
+        tangent: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        tangent_sign: float | TextureRef | OperationRef = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        the normal, halved and moved by a half
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def space(self) -> str:
+        """
+        tangent, object or world
+        """
+    @space.setter
+    def space(self, value: str) -> None: ...
+    @property
+    def strength(self) -> float | TextureRef | OperationRef:
+        """
+        0 is the surface's own normal; at least 0
+        """
+    @strength.setter
+    def strength(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def tangent(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        an operation that gives the colour's x axis, object space; else it is that of uv
+        """
+    @tangent.setter
+    def tangent(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def tangent_sign(self) -> float | TextureRef | OperationRef:
+        """
+        the y axis is so often the normal cross the tangent
+        """
+    @tangent_sign.setter
+    def tangent_sign(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class TangentOperation:
+    """
+    A direction along the surface.
+
+    direction: object space; zero gives zero
+    """
+    def __init__(
+        self,
+        direction: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def direction(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        object space; zero gives zero
+        """
+    @direction.setter
+    def direction(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class WireframeOperation:
+    """
+    1 near the edges of triangles.
+
+    size: width of the edges, metres
+    in_pixels: the size is in pixels
+    """
+    def __init__(
+        self, size: float | TextureRef | OperationRef = 0.01, in_pixels: bool = False
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def in_pixels(self) -> bool:
+        """
+        the size is in pixels
+        """
+    @in_pixels.setter
+    def in_pixels(self, value: bool) -> None: ...
+    @property
+    def size(self) -> float | TextureRef | OperationRef:
+        """
+        width of the edges, metres
+        """
+    @size.setter
+    def size(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class BumpOperation:
+    """
+    A normal from a height.
+
+    height: an operation that gives metres over distance
+    strength: 0 is the normal as it was; at least 0
+    distance: multiplies the height
+    normal: world space; zero is the surface's own
+    invert: bumps become dents
+    filter_width: how far apart the height is looked at, in pixels; above 0
+    local: the distance is in object space
+    """
+    def __init__(
+        self,
+        height: float | TextureRef | OperationRef = 1.0,
+        strength: float | TextureRef | OperationRef = 1.0,
+        distance: float | TextureRef | OperationRef = 1.0,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        invert: bool = False,
+        filter_width: float = 1.0,
+        local: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def distance(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the height
+        """
+    @distance.setter
+    def distance(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def filter_width(self) -> float:
+        """
+        how far apart the height is looked at, in pixels; above 0
+        """
+    @filter_width.setter
+    def filter_width(self, value: float) -> None: ...
+    @property
+    def height(self) -> float | TextureRef | OperationRef:
+        """
+        an operation that gives metres over distance
+        """
+    @height.setter
+    def height(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def invert(self) -> bool:
+        """
+        bumps become dents
+        """
+    @invert.setter
+    def invert(self, value: bool) -> None: ...
+    @property
+    def local(self) -> bool:
+        """
+        the distance is in object space
+        """
+    @local.setter
+    def local(self, value: bool) -> None: ...
+    @property
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        world space; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def strength(self) -> float | TextureRef | OperationRef:
+        """
+        0 is the normal as it was; at least 0
+        """
+    @strength.setter
+    def strength(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class TextureOperation:
+    """
+    A texture of the scene at any coordinates.
+
+    texture: of the scene
+    vector: instead of uv
+    alpha: gives its alpha instead of its colour
+    projection: flat: over x and y; box: on six sides, by the normal; sphere and tube: around z; equirectangular and mirror_ball: over directions
+    blend: how softly the sides of the box meet; in [0, 1]
+    """
+    def __init__(
+        self,
+        texture: int | None = None,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        alpha: bool = False,
+        projection: str = "flat",
+        blend: float = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def alpha(self) -> bool:
+        """
+        gives its alpha instead of its colour
+        """
+    @alpha.setter
+    def alpha(self, value: bool) -> None: ...
+    @property
+    def blend(self) -> float:
+        """
+        how softly the sides of the box meet; in [0, 1]
+        """
+    @blend.setter
+    def blend(self, value: float) -> None: ...
+    @property
+    def projection(self) -> str:
+        """
+        flat: over x and y; box: on six sides, by the normal; sphere and tube: around z; equirectangular and mirror_ball: over directions
+        """
+    @projection.setter
+    def projection(self, value: str) -> None: ...
+    @property
+    def texture(self) -> int | None:
+        """
+        of the scene
+        """
+    @texture.setter
+    def texture(self, value: int | None) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        instead of uv
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class CheckerOperation:
+    """
+    1 and 0 by turns.
+
+    vector: where
+    scale: cells in one metre
+    """
+    def __init__(
+        self,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        scale: float | TextureRef | OperationRef = 5.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def scale(self) -> float | TextureRef | OperationRef:
+        """
+        cells in one metre
+        """
+    @scale.setter
+    def scale(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        where
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class GradientOperation:
+    """
+    A number that rises from 0 to 1.
+
+    gradient: linear, quadratic, easing, diagonal, radial, quadratic_sphere or spherical
+    vector: where
+    """
+    def __init__(
+        self,
+        gradient: str = "linear",
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def gradient(self) -> str:
+        """
+        linear, quadratic, easing, diagonal, radial, quadratic_sphere or spherical
+        """
+    @gradient.setter
+    def gradient(self, value: str) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        where
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class WaveOperation:
+    """
+    Bands or rings.
+
+    rings: rings instead of bands
+    direction: x, y, z, diagonal (of bands) or spherical (of rings)
+    profile: sine, saw or triangle
+    vector: where
+    scale: multiplies the vector
+    distortion: by noise
+    detail: of the noise
+    detail_scale: of the noise
+    detail_roughness: of the noise
+    phase: moves the waves, radians
+    """
+    def __init__(
+        self,
+        rings: bool = False,
+        direction: str = "x",
+        profile: str = "sine",
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        scale: float | TextureRef | OperationRef = 5.0,
+        distortion: float | TextureRef | OperationRef = 0.0,
+        detail: float | TextureRef | OperationRef = 2.0,
+        detail_scale: float | TextureRef | OperationRef = 1.0,
+        detail_roughness: float | TextureRef | OperationRef = 0.5,
+        phase: float | TextureRef | OperationRef = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def detail(self) -> float | TextureRef | OperationRef:
+        """
+        of the noise
+        """
+    @detail.setter
+    def detail(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def detail_roughness(self) -> float | TextureRef | OperationRef:
+        """
+        of the noise
+        """
+    @detail_roughness.setter
+    def detail_roughness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def detail_scale(self) -> float | TextureRef | OperationRef:
+        """
+        of the noise
+        """
+    @detail_scale.setter
+    def detail_scale(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def direction(self) -> str:
+        """
+        x, y, z, diagonal (of bands) or spherical (of rings)
+        """
+    @direction.setter
+    def direction(self, value: str) -> None: ...
+    @property
+    def distortion(self) -> float | TextureRef | OperationRef:
+        """
+        by noise
+        """
+    @distortion.setter
+    def distortion(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def phase(self) -> float | TextureRef | OperationRef:
+        """
+        moves the waves, radians
+        """
+    @phase.setter
+    def phase(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def profile(self) -> str:
+        """
+        sine, saw or triangle
+        """
+    @profile.setter
+    def profile(self, value: str) -> None: ...
+    @property
+    def rings(self) -> bool:
+        """
+        rings instead of bands
+        """
+    @rings.setter
+    def rings(self, value: bool) -> None: ...
+    @property
+    def scale(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the vector
+        """
+    @scale.setter
+    def scale(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        where
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class MagicOperation:
+    """
+    Colours in waves.
+
+    depth: iterations; in [0, 10]
+    vector: where
+    scale: multiplies the vector
+    distortion: how much
+    """
+    def __init__(
+        self,
+        depth: int = 2,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        scale: float | TextureRef | OperationRef = 5.0,
+        distortion: float | TextureRef | OperationRef = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def depth(self) -> int:
+        """
+        iterations; in [0, 10]
+        """
+    @depth.setter
+    def depth(self, value: int) -> None: ...
+    @property
+    def distortion(self) -> float | TextureRef | OperationRef:
+        """
+        how much
+        """
+    @distortion.setter
+    def distortion(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def scale(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the vector
+        """
+    @scale.setter
+    def scale(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        where
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class BrickOperation:
+    """
+    x: the mortar, y: the tint of the brick.
+
+    vector: where
+    scale: multiplies the vector
+    mortar_size: 0 is none
+    mortar_smooth: 0 is a sharp edge
+    bias: -1 is all the first colour, 1 all the second
+    brick_width: of a brick
+    row_height: of a row
+    offset: of shifted rows
+    squash: of squashed rows
+    offset_frequency: how often rows are shifted; at least 0
+    squash_frequency: how often rows are squashed; at least 0
+    """
+    def __init__(
+        self,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        scale: float | TextureRef | OperationRef = 5.0,
+        mortar_size: float | TextureRef | OperationRef = 0.02,
+        mortar_smooth: float | TextureRef | OperationRef = 0.1,
+        bias: float | TextureRef | OperationRef = 0.0,
+        brick_width: float | TextureRef | OperationRef = 0.5,
+        row_height: float | TextureRef | OperationRef = 0.25,
+        offset: float = 0.5,
+        squash: float = 1.0,
+        offset_frequency: int = 2,
+        squash_frequency: int = 2,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def bias(self) -> float | TextureRef | OperationRef:
+        """
+        -1 is all the first colour, 1 all the second
+        """
+    @bias.setter
+    def bias(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def brick_width(self) -> float | TextureRef | OperationRef:
+        """
+        of a brick
+        """
+    @brick_width.setter
+    def brick_width(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def mortar_size(self) -> float | TextureRef | OperationRef:
+        """
+        0 is none
+        """
+    @mortar_size.setter
+    def mortar_size(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def mortar_smooth(self) -> float | TextureRef | OperationRef:
+        """
+        0 is a sharp edge
+        """
+    @mortar_smooth.setter
+    def mortar_smooth(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def offset(self) -> float:
+        """
+        of shifted rows
+        """
+    @offset.setter
+    def offset(self, value: float) -> None: ...
+    @property
+    def offset_frequency(self) -> int:
+        """
+        how often rows are shifted; at least 0
+        """
+    @offset_frequency.setter
+    def offset_frequency(self, value: int) -> None: ...
+    @property
+    def row_height(self) -> float | TextureRef | OperationRef:
+        """
+        of a row
+        """
+    @row_height.setter
+    def row_height(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def scale(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the vector
+        """
+    @scale.setter
+    def scale(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def squash(self) -> float:
+        """
+        of squashed rows
+        """
+    @squash.setter
+    def squash(self, value: float) -> None: ...
+    @property
+    def squash_frequency(self) -> int:
+        """
+        how often rows are squashed; at least 0
+        """
+    @squash_frequency.setter
+    def squash_frequency(self, value: int) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        where
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class NoiseOperation:
+    """
+    Smooth noise.
+
+    noise: multifractal, fbm, hybrid_multifractal, ridged_multifractal or hetero_terrain
+    dimensions: of w alone, of the vector, or of both; in [1, 4]
+    vector: where
+    w: of one and of four dimensions
+    scale: multiplies both
+    detail: octaves, less one
+    roughness: an octave's share of the one before
+    lacunarity: an octave's frequency over that of the one before
+    offset: of hybrid, ridged and hetero terrain
+    gain: of hybrid and ridged
+    distortion: how far noise moves the point
+    normalize: fbm: within [0, 1]
+    color: gives three noises instead of one
+    """
+    def __init__(
+        self,
+        noise: str = "fbm",
+        dimensions: int = 3,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        w: float | TextureRef | OperationRef = 0.0,
+        scale: float | TextureRef | OperationRef = 5.0,
+        detail: float | TextureRef | OperationRef = 2.0,
+        roughness: float | TextureRef | OperationRef = 0.5,
+        lacunarity: float | TextureRef | OperationRef = 2.0,
+        offset: float | TextureRef | OperationRef = 0.0,
+        gain: float | TextureRef | OperationRef = 1.0,
+        distortion: float | TextureRef | OperationRef = 0.0,
+        normalize: bool = True,
+        color: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> bool:
+        """
+        gives three noises instead of one
+        """
+    @color.setter
+    def color(self, value: bool) -> None: ...
+    @property
+    def detail(self) -> float | TextureRef | OperationRef:
+        """
+        octaves, less one
+        """
+    @detail.setter
+    def detail(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def dimensions(self) -> int:
+        """
+        of w alone, of the vector, or of both; in [1, 4]
+        """
+    @dimensions.setter
+    def dimensions(self, value: int) -> None: ...
+    @property
+    def distortion(self) -> float | TextureRef | OperationRef:
+        """
+        how far noise moves the point
+        """
+    @distortion.setter
+    def distortion(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def gain(self) -> float | TextureRef | OperationRef:
+        """
+        of hybrid and ridged
+        """
+    @gain.setter
+    def gain(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def lacunarity(self) -> float | TextureRef | OperationRef:
+        """
+        an octave's frequency over that of the one before
+        """
+    @lacunarity.setter
+    def lacunarity(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def noise(self) -> str:
+        """
+        multifractal, fbm, hybrid_multifractal, ridged_multifractal or hetero_terrain
+        """
+    @noise.setter
+    def noise(self, value: str) -> None: ...
+    @property
+    def normalize(self) -> bool:
+        """
+        fbm: within [0, 1]
+        """
+    @normalize.setter
+    def normalize(self, value: bool) -> None: ...
+    @property
+    def offset(self) -> float | TextureRef | OperationRef:
+        """
+        of hybrid, ridged and hetero terrain
+        """
+    @offset.setter
+    def offset(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def roughness(self) -> float | TextureRef | OperationRef:
+        """
+        an octave's share of the one before
+        """
+    @roughness.setter
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def scale(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies both
+        """
+    @scale.setter
+    def scale(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        where
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def w(self) -> float | TextureRef | OperationRef:
+        """
+        of one and of four dimensions
+        """
+    @w.setter
+    def w(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class WhiteNoiseOperation:
+    """
+    A random number for each point.
+
+    dimensions: of w alone, of the vector, or of both; in [1, 4]
+    vector: where
+    w: of one and of four dimensions
+    color: gives three numbers instead of one
+    """
+    def __init__(
+        self,
+        dimensions: int = 3,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        w: float | TextureRef | OperationRef = 0.0,
+        color: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> bool:
+        """
+        gives three numbers instead of one
+        """
+    @color.setter
+    def color(self, value: bool) -> None: ...
+    @property
+    def dimensions(self) -> int:
+        """
+        of w alone, of the vector, or of both; in [1, 4]
+        """
+    @dimensions.setter
+    def dimensions(self, value: int) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        where
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def w(self) -> float | TextureRef | OperationRef:
+        """
+        of one and of four dimensions
+        """
+    @w.setter
+    def w(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class VoronoiOperation:
+    """
+    Cells around random points.
+
+    feature: f1, f2, smooth_f1, distance_to_edge or n_sphere_radius
+    metric: euclidean, manhattan, chebychev or minkowski
+    output: distance (also the edge's, or the radius), color, position or w
+    hash: where points are: pcg as from Blender 5.0 on, or lookup3 as before
+    dimensions: of w alone, of the vector, or of both; in [1, 4]
+    vector: where
+    w: of one and of four dimensions
+    scale: multiplies both
+    detail: octaves, less one
+    roughness: an octave's share of the one before
+    lacunarity: an octave's frequency over that of the one before
+    smoothness: of smooth_f1
+    exponent: of minkowski
+    randomness: 0 is a grid
+    normalize: distances about within [0, 1]
+    """
+    def __init__(
+        self,
+        feature: str = "f1",
+        metric: str = "euclidean",
+        output: str = "distance",
+        hash: str = "pcg",
+        dimensions: int = 3,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        w: float | TextureRef | OperationRef = 0.0,
+        scale: float | TextureRef | OperationRef = 5.0,
+        detail: float | TextureRef | OperationRef = 0.0,
+        roughness: float | TextureRef | OperationRef = 0.5,
+        lacunarity: float | TextureRef | OperationRef = 2.0,
+        smoothness: float | TextureRef | OperationRef = 1.0,
+        exponent: float | TextureRef | OperationRef = 0.5,
+        randomness: float | TextureRef | OperationRef = 1.0,
+        normalize: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def detail(self) -> float | TextureRef | OperationRef:
+        """
+        octaves, less one
+        """
+    @detail.setter
+    def detail(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def dimensions(self) -> int:
+        """
+        of w alone, of the vector, or of both; in [1, 4]
+        """
+    @dimensions.setter
+    def dimensions(self, value: int) -> None: ...
+    @property
+    def exponent(self) -> float | TextureRef | OperationRef:
+        """
+        of minkowski
+        """
+    @exponent.setter
+    def exponent(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def feature(self) -> str:
+        """
+        f1, f2, smooth_f1, distance_to_edge or n_sphere_radius
+        """
+    @feature.setter
+    def feature(self, value: str) -> None: ...
+    @property
+    def hash(self) -> str:
+        """
+        where points are: pcg as from Blender 5.0 on, or lookup3 as before
+        """
+    @hash.setter
+    def hash(self, value: str) -> None: ...
+    @property
+    def lacunarity(self) -> float | TextureRef | OperationRef:
+        """
+        an octave's frequency over that of the one before
+        """
+    @lacunarity.setter
+    def lacunarity(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def metric(self) -> str:
+        """
+        euclidean, manhattan, chebychev or minkowski
+        """
+    @metric.setter
+    def metric(self, value: str) -> None: ...
+    @property
+    def normalize(self) -> bool:
+        """
+        distances about within [0, 1]
+        """
+    @normalize.setter
+    def normalize(self, value: bool) -> None: ...
+    @property
+    def output(self) -> str:
+        """
+        distance (also the edge's, or the radius), color, position or w
+        """
+    @output.setter
+    def output(self, value: str) -> None: ...
+    @property
+    def randomness(self) -> float | TextureRef | OperationRef:
+        """
+        0 is a grid
+        """
+    @randomness.setter
+    def randomness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def roughness(self) -> float | TextureRef | OperationRef:
+        """
+        an octave's share of the one before
+        """
+    @roughness.setter
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def scale(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies both
+        """
+    @scale.setter
+    def scale(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def smoothness(self) -> float | TextureRef | OperationRef:
+        """
+        of smooth_f1
+        """
+    @smoothness.setter
+    def smoothness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        where
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def w(self) -> float | TextureRef | OperationRef:
+        """
+        of one and of four dimensions
+        """
+    @w.setter
+    def w(self, value: float | TextureRef | OperationRef) -> None: ...
+
+class GaborOperation:
+    """
+    Waves of one frequency in random places.
+
+    output: value, phase or intensity, all within [0, 1]
+    dimensions: two or all three of the vector's; in [2, 3]
+    vector: where
+    scale: multiplies it
+    frequency: waves per cell
+    anisotropy: 1: all waves go one way, 0: any way
+    angle: that way in two dimensions, radians
+    direction: that way in three dimensions
+    """
+    def __init__(
+        self,
+        output: str = "value",
+        dimensions: int = 2,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        scale: float | TextureRef | OperationRef = 5.0,
+        frequency: float | TextureRef | OperationRef = 2.0,
+        anisotropy: float | TextureRef | OperationRef = 1.0,
+        angle: float | TextureRef | OperationRef = 0.7853982,
+        direction: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 0.0),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angle(self) -> float | TextureRef | OperationRef:
+        """
+        that way in two dimensions, radians
+        """
+    @angle.setter
+    def angle(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def anisotropy(self) -> float | TextureRef | OperationRef:
+        """
+        1: all waves go one way, 0: any way
+        """
+    @anisotropy.setter
+    def anisotropy(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def dimensions(self) -> int:
+        """
+        two or all three of the vector's; in [2, 3]
+        """
+    @dimensions.setter
+    def dimensions(self, value: int) -> None: ...
+    @property
+    def direction(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        that way in three dimensions
+        """
+    @direction.setter
+    def direction(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def frequency(self) -> float | TextureRef | OperationRef:
+        """
+        waves per cell
+        """
+    @frequency.setter
+    def frequency(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def output(self) -> str:
+        """
+        value, phase or intensity, all within [0, 1]
+        """
+    @output.setter
+    def output(self, value: str) -> None: ...
+    @property
+    def scale(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies it
+        """
+    @scale.setter
+    def scale(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        where
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
 class DiffuseShader:
     """
     Diffuse reflection, Lambert's or by a rough surface.
 
     color: reflectance; in [0, 1]
     twosided: whether the back reflects too
+    normal: in world space, on the viewer's side; zero is the surface's own
     roughness: 0 is Lambert's reflection, above that Oren and Nayar's, which keeps all light; in [0, 1]
     """
     def __init__(
         self,
-        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            0.8,
-            0.8,
-            0.8,
-        ),
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
         twosided: bool = False,
-        roughness: float = 0.0,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        roughness: float | TextureRef | OperationRef = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef:
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         reflectance; in [0, 1]
         """
     @color.setter
     def color(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
-    def roughness(self) -> float:
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def roughness(self) -> float | TextureRef | OperationRef:
         """
         0 is Lambert's reflection, above that Oren and Nayar's, which keeps all light; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float) -> None: ...
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
     def twosided(self) -> bool:
         """
@@ -378,39 +2483,44 @@ class GlossyShader:
     color: reflectance; in [0, 1]
     roughness: the microfacets' alpha is its square; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx, beckmann or ashikhmin_shirley
+    normal: in world space, on the viewer's side; zero is the surface's own
     anisotropy: above 0 smoother along the tangent, below 0 across; in [-1, 1]
     rotation: of that about the normal, in whole turns
     tangent: what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
     """
     def __init__(
         self,
-        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            0.8,
-            0.8,
-            0.8,
-        ),
-        roughness: float = 0.5,
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        roughness: float | TextureRef | OperationRef = 0.5,
         distribution: str = "multi_ggx",
-        anisotropy: float = 0.0,
-        rotation: float = 0.0,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        anisotropy: float | TextureRef | OperationRef = 0.0,
+        rotation: float | TextureRef | OperationRef = 0.0,
         tangent: str = "uv",
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def anisotropy(self) -> float:
+    def anisotropy(self) -> float | TextureRef | OperationRef:
         """
         above 0 smoother along the tangent, below 0 across; in [-1, 1]
         """
     @anisotropy.setter
-    def anisotropy(self, value: float) -> None: ...
+    def anisotropy(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef:
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         reflectance; in [0, 1]
         """
     @color.setter
     def color(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
     def distribution(self) -> str:
@@ -420,19 +2530,29 @@ class GlossyShader:
     @distribution.setter
     def distribution(self, value: str) -> None: ...
     @property
-    def rotation(self) -> float:
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def rotation(self) -> float | TextureRef | OperationRef:
         """
         of that about the normal, in whole turns
         """
     @rotation.setter
-    def rotation(self, value: float) -> None: ...
+    def rotation(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def roughness(self) -> float:
+    def roughness(self) -> float | TextureRef | OperationRef:
         """
         the microfacets' alpha is its square; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float) -> None: ...
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
     def tangent(self) -> str:
         """
@@ -455,11 +2575,10 @@ class ConductorShader:
     """
     def __init__(
         self,
-        reflectance: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            1.0,
-            1.0,
-            1.0,
-        ),
+        reflectance: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
         alpha_x: float = 0.1,
         alpha_y: float = 0.1,
         etaI: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
@@ -515,13 +2634,14 @@ class ConductorShader:
     @k.setter
     def k(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
-    def reflectance(self) -> tuple[float, float, float] | TextureRef:
+    def reflectance(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         multiplies the Fresnel reflectance; in [0, 1]
         """
     @reflectance.setter
     def reflectance(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
 
 class MetallicShader:
@@ -538,52 +2658,58 @@ class MetallicShader:
     anisotropy: above 0 smoother across the tangent; in [0, 1]
     rotation: of that about the normal, in whole turns
     tangent: what stretched microfacets lie along: uv, or around an axis of the object, radial_x, radial_y or radial_z
+    normal: in world space, on the viewer's side; zero is the surface's own
     thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
     thin_film_ior: refractive index of the film; above 0
     """
     def __init__(
         self,
         model: str = "f82",
-        base_color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            0.617,
-            0.577,
-            0.54,
-        ),
-        edge_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            0.695,
-            0.726,
-            0.77,
-        ),
-        ior: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (2.757, 2.513, 2.231),
-        extinction: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (
-            3.867,
-            3.404,
-            3.009,
-        ),
-        roughness: float = 0.5,
+        base_color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.617, 0.577, 0.54),
+        edge_tint: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.695, 0.726, 0.77),
+        ior: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (2.757, 2.513, 2.231),
+        extinction: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (3.867, 3.404, 3.009),
+        roughness: float | TextureRef | OperationRef = 0.5,
         distribution: str = "multi_ggx",
-        anisotropy: float = 0.0,
-        rotation: float = 0.0,
+        anisotropy: float | TextureRef | OperationRef = 0.0,
+        rotation: float | TextureRef | OperationRef = 0.0,
         tangent: str = "uv",
-        thin_film_thickness: float = 0.0,
-        thin_film_ior: float = 1.33,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        thin_film_thickness: float | TextureRef | OperationRef = 0.0,
+        thin_film_ior: float | TextureRef | OperationRef = 1.33,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def anisotropy(self) -> float:
+    def anisotropy(self) -> float | TextureRef | OperationRef:
         """
         above 0 smoother across the tangent; in [0, 1]
         """
     @anisotropy.setter
-    def anisotropy(self, value: float) -> None: ...
+    def anisotropy(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def base_color(self) -> tuple[float, float, float] | TextureRef:
+    def base_color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         reflectance where it is met head on; in [0, 1]
         """
     @base_color.setter
     def base_color(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
     def distribution(self) -> str:
@@ -593,30 +2719,35 @@ class MetallicShader:
     @distribution.setter
     def distribution(self, value: str) -> None: ...
     @property
-    def edge_tint(self) -> tuple[float, float, float] | TextureRef:
+    def edge_tint(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         multiplies the reflectance near grazing incidence; in [0, 1]
         """
     @edge_tint.setter
     def edge_tint(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
-    def extinction(self) -> tuple[float, float, float]:
+    def extinction(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         of the metal; at least 0
         """
     @extinction.setter
     def extinction(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
-    def ior(self) -> tuple[float, float, float]:
+    def ior(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         refractive index of the metal; at least 0
         """
     @ior.setter
-    def ior(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
+    def ior(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
     @property
     def model(self) -> str:
         """
@@ -625,19 +2756,29 @@ class MetallicShader:
     @model.setter
     def model(self, value: str) -> None: ...
     @property
-    def rotation(self) -> float:
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def rotation(self) -> float | TextureRef | OperationRef:
         """
         of that about the normal, in whole turns
         """
     @rotation.setter
-    def rotation(self, value: float) -> None: ...
+    def rotation(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def roughness(self) -> float:
+    def roughness(self) -> float | TextureRef | OperationRef:
         """
         the microfacets' alpha is its square; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float) -> None: ...
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
     def tangent(self) -> str:
         """
@@ -646,43 +2787,58 @@ class MetallicShader:
     @tangent.setter
     def tangent(self, value: str) -> None: ...
     @property
-    def thin_film_ior(self) -> float:
+    def thin_film_ior(self) -> float | TextureRef | OperationRef:
         """
         refractive index of the film; above 0
         """
     @thin_film_ior.setter
-    def thin_film_ior(self, value: float) -> None: ...
+    def thin_film_ior(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def thin_film_thickness(self) -> float:
+    def thin_film_thickness(self) -> float | TextureRef | OperationRef:
         """
         of a thin film on it, nanometres; 0 is none; at least 0
         """
     @thin_film_thickness.setter
-    def thin_film_thickness(self, value: float) -> None: ...
+    def thin_film_thickness(self, value: float | TextureRef | OperationRef) -> None: ...
 
 class TranslucentShader:
     """
     Diffuse transmission.
 
     color: what goes through, spread evenly; in [0, 1]
+    normal: in world space, on the viewer's side; zero is the surface's own
     """
     def __init__(
         self,
-        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            0.8,
-            0.8,
-            0.8,
-        ),
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef:
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         what goes through, spread evenly; in [0, 1]
         """
     @color.setter
     def color(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
 
 class SheenShader:
@@ -692,26 +2848,31 @@ class SheenShader:
     color: tint; in [0, 1]
     roughness: how far from grazing it is seen; in [0, 1]
     model: microfiber or ashikhmin
+    normal: in world space, on the viewer's side; zero is the surface's own
     """
     def __init__(
         self,
-        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            0.8,
-            0.8,
-            0.8,
-        ),
-        roughness: float = 0.5,
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        roughness: float | TextureRef | OperationRef = 0.5,
         model: str = "microfiber",
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef:
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         tint; in [0, 1]
         """
     @color.setter
     def color(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
     def model(self) -> str:
@@ -721,12 +2882,22 @@ class SheenShader:
     @model.setter
     def model(self, value: str) -> None: ...
     @property
-    def roughness(self) -> float:
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def roughness(self) -> float | TextureRef | OperationRef:
         """
         how far from grazing it is seen; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float) -> None: ...
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
 
 class ToonShader:
     """
@@ -736,27 +2907,32 @@ class ToonShader:
     component: diffuse: around the normal; glossy: the reflection
     size: of the spot, in right angles; in [0, 1]
     smooth: width of the soft rim, in right angles; in [0, 1]
+    normal: in world space, on the viewer's side; zero is the surface's own
     """
     def __init__(
         self,
-        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            0.8,
-            0.8,
-            0.8,
-        ),
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
         component: str = "diffuse",
-        size: float = 0.5,
-        smooth: float = 0.0,
+        size: float | TextureRef | OperationRef = 0.5,
+        smooth: float | TextureRef | OperationRef = 0.0,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef:
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         tint; in [0, 1]
         """
     @color.setter
     def color(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
     def component(self) -> str:
@@ -766,19 +2942,29 @@ class ToonShader:
     @component.setter
     def component(self, value: str) -> None: ...
     @property
-    def size(self) -> float:
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def size(self) -> float | TextureRef | OperationRef:
         """
         of the spot, in right angles; in [0, 1]
         """
     @size.setter
-    def size(self, value: float) -> None: ...
+    def size(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def smooth(self) -> float:
+    def smooth(self) -> float | TextureRef | OperationRef:
         """
         width of the soft rim, in right angles; in [0, 1]
         """
     @smooth.setter
-    def smooth(self, value: float) -> None: ...
+    def smooth(self, value: float | TextureRef | OperationRef) -> None: ...
 
 class RefractionShader:
     """
@@ -789,28 +2975,33 @@ class RefractionShader:
     roughness: the microfacets' alpha is its square; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
     total_reflection: mirror light past the critical angle, or lose it as Blender does
+    normal: in world space, on the viewer's side; zero is the surface's own
     """
     def __init__(
         self,
-        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            1.0,
-            1.0,
-            1.0,
-        ),
-        eta: float = 1.5,
-        roughness: float = 0.0,
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+        eta: float | TextureRef | OperationRef = 1.5,
+        roughness: float | TextureRef | OperationRef = 0.0,
         distribution: str = "ggx",
         total_reflection: bool = True,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef:
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         tint of the refracted light; in [0, 1]
         """
     @color.setter
     def color(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
     def distribution(self) -> str:
@@ -820,19 +3011,29 @@ class RefractionShader:
     @distribution.setter
     def distribution(self, value: str) -> None: ...
     @property
-    def eta(self) -> float:
+    def eta(self) -> float | TextureRef | OperationRef:
         """
         refractive index inside over outside; above 0
         """
     @eta.setter
-    def eta(self, value: float) -> None: ...
+    def eta(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def roughness(self) -> float:
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def roughness(self) -> float | TextureRef | OperationRef:
         """
         the microfacets' alpha is its square; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float) -> None: ...
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
     def total_reflection(self) -> bool:
         """
@@ -850,37 +3051,52 @@ class GlassShader:
     eta: refractive index inside over outside; above 0
     roughness: the microfacets' alpha is its square; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
+    normal: in world space, on the viewer's side; zero is the surface's own
     thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
     thin_film_ior: refractive index of the film; above 0
     """
     def __init__(
         self,
-        R: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (1.0, 1.0, 1.0),
-        T: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (1.0, 1.0, 1.0),
-        eta: float = 1.5,
-        roughness: float = 0.0,
+        R: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        T: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef = (
+            1.0,
+            1.0,
+            1.0,
+        ),
+        eta: float | TextureRef | OperationRef = 1.5,
+        roughness: float | TextureRef | OperationRef = 0.0,
         distribution: str = "multi_ggx",
-        thin_film_thickness: float = 0.0,
-        thin_film_ior: float = 1.33,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        thin_film_thickness: float | TextureRef | OperationRef = 0.0,
+        thin_film_ior: float | TextureRef | OperationRef = 1.33,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def R(self) -> tuple[float, float, float] | TextureRef:
+    def R(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         tint of the reflected light; in [0, 1]
         """
     @R.setter
     def R(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
-    def T(self) -> tuple[float, float, float] | TextureRef:
+    def T(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         tint of the refracted light; in [0, 1]
         """
     @T.setter
     def T(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
     def distribution(self) -> str:
@@ -890,33 +3106,43 @@ class GlassShader:
     @distribution.setter
     def distribution(self, value: str) -> None: ...
     @property
-    def eta(self) -> float:
+    def eta(self) -> float | TextureRef | OperationRef:
         """
         refractive index inside over outside; above 0
         """
     @eta.setter
-    def eta(self, value: float) -> None: ...
+    def eta(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def roughness(self) -> float:
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def roughness(self) -> float | TextureRef | OperationRef:
         """
         the microfacets' alpha is its square; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float) -> None: ...
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def thin_film_ior(self) -> float:
+    def thin_film_ior(self) -> float | TextureRef | OperationRef:
         """
         refractive index of the film; above 0
         """
     @thin_film_ior.setter
-    def thin_film_ior(self, value: float) -> None: ...
+    def thin_film_ior(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def thin_film_thickness(self) -> float:
+    def thin_film_thickness(self) -> float | TextureRef | OperationRef:
         """
         of a thin film on it, nanometres; 0 is none; at least 0
         """
     @thin_film_thickness.setter
-    def thin_film_thickness(self, value: float) -> None: ...
+    def thin_film_thickness(self, value: float | TextureRef | OperationRef) -> None: ...
 
 class TransparentShader:
     """
@@ -926,21 +3152,21 @@ class TransparentShader:
     """
     def __init__(
         self,
-        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            1.0,
-            1.0,
-            1.0,
-        ),
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def color(self) -> tuple[float, float, float] | TextureRef:
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         what passes straight through; in [0, 1]
         """
     @color.setter
     def color(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
 
 class EmissionShader:
@@ -953,31 +3179,31 @@ class EmissionShader:
     """
     def __init__(
         self,
-        radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            1.0,
-            1.0,
-            1.0,
-        ),
+        radiance: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
         twosided: bool = True,
-        strength: float = 1.0,
+        strength: float | TextureRef | OperationRef = 1.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def radiance(self) -> tuple[float, float, float] | TextureRef:
+    def radiance(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         W / (m^2 sr), each direction alike; at least 0
         """
     @radiance.setter
     def radiance(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
-    def strength(self) -> float:
+    def strength(self) -> float | TextureRef | OperationRef:
         """
         multiplies the radiance; at least 0
         """
     @strength.setter
-    def strength(self, value: float) -> None: ...
+    def strength(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
     def twosided(self) -> bool:
         """
@@ -1007,6 +3233,7 @@ class PrincipledShader:
     emission_strength: multiplies the emission; at least 0
     alpha: opacity; in [0, 1]
     distribution: how the microfacets are turned: multi_ggx, ggx or beckmann
+    normal: in world space, on the viewer's side; zero is the surface's own
     diffuse_roughness: as of the diffuse shader; in [0, 1]
     specular_tint: of a dielectric's reflection where it is met head on, of a metal's near grazing incidence; in [0, 1]
     anisotropic: above 0 smoother across the tangent; in [0, 1]
@@ -1019,124 +3246,140 @@ class PrincipledShader:
     coat_roughness: of the coat; in [0, 1]
     coat_ior: refractive index of the coat; at least 1
     coat_tint: what the coat lets through of light from straight above; in [0, 1]
+    coat_normal: in world space, on the viewer's side; zero is the surface's own
     thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
     thin_film_ior: refractive index of the film; above 0
     """
     def __init__(
         self,
-        base_color: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            0.8,
-            0.8,
-            0.8,
-        ),
-        metallic: float = 0.0,
-        roughness: float = 0.5,
-        ior: float = 1.5,
-        transmission: float = 0.0,
-        specular_ior_level: float = 0.5,
-        emission: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            0.0,
-            0.0,
-            0.0,
-        ),
-        emission_strength: float = 1.0,
-        alpha: float | TextureRef = 1.0,
+        base_color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        metallic: float | TextureRef | OperationRef = 0.0,
+        roughness: float | TextureRef | OperationRef = 0.5,
+        ior: float | TextureRef | OperationRef = 1.5,
+        transmission: float | TextureRef | OperationRef = 0.0,
+        specular_ior_level: float | TextureRef | OperationRef = 0.5,
+        emission: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        emission_strength: float | TextureRef | OperationRef = 1.0,
+        alpha: float | TextureRef | OperationRef = 1.0,
         distribution: str = "multi_ggx",
-        diffuse_roughness: float = 0.0,
-        specular_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            1.0,
-            1.0,
-            1.0,
-        ),
-        anisotropic: float = 0.0,
-        anisotropic_rotation: float = 0.0,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        diffuse_roughness: float | TextureRef | OperationRef = 0.0,
+        specular_tint: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+        anisotropic: float | TextureRef | OperationRef = 0.0,
+        anisotropic_rotation: float | TextureRef | OperationRef = 0.0,
         tangent: str = "uv",
-        sheen_weight: float = 0.0,
-        sheen_roughness: float = 0.5,
-        sheen_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            1.0,
-            1.0,
-            1.0,
-        ),
-        coat_weight: float = 0.0,
-        coat_roughness: float = 0.03,
-        coat_ior: float = 1.5,
-        coat_tint: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef = (
-            1.0,
-            1.0,
-            1.0,
-        ),
-        thin_film_thickness: float = 0.0,
-        thin_film_ior: float = 1.33,
+        sheen_weight: float | TextureRef | OperationRef = 0.0,
+        sheen_roughness: float | TextureRef | OperationRef = 0.5,
+        sheen_tint: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+        coat_weight: float | TextureRef | OperationRef = 0.0,
+        coat_roughness: float | TextureRef | OperationRef = 0.03,
+        coat_ior: float | TextureRef | OperationRef = 1.5,
+        coat_tint: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+        coat_normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        thin_film_thickness: float | TextureRef | OperationRef = 0.0,
+        thin_film_ior: float | TextureRef | OperationRef = 1.33,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def alpha(self) -> float | TextureRef:
+    def alpha(self) -> float | TextureRef | OperationRef:
         """
         opacity; in [0, 1]
         """
     @alpha.setter
-    def alpha(self, value: float | TextureRef) -> None: ...
+    def alpha(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def anisotropic(self) -> float:
+    def anisotropic(self) -> float | TextureRef | OperationRef:
         """
         above 0 smoother across the tangent; in [0, 1]
         """
     @anisotropic.setter
-    def anisotropic(self, value: float) -> None: ...
+    def anisotropic(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def anisotropic_rotation(self) -> float:
+    def anisotropic_rotation(self) -> float | TextureRef | OperationRef:
         """
         of that about the normal, in whole turns
         """
     @anisotropic_rotation.setter
-    def anisotropic_rotation(self, value: float) -> None: ...
+    def anisotropic_rotation(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def base_color(self) -> tuple[float, float, float] | TextureRef:
+    def base_color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         reflectance of diffuse and metal, tint of glass; in [0, 1]
         """
     @base_color.setter
     def base_color(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
-    def coat_ior(self) -> float:
+    def coat_ior(self) -> float | TextureRef | OperationRef:
         """
         refractive index of the coat; at least 1
         """
     @coat_ior.setter
-    def coat_ior(self, value: float) -> None: ...
+    def coat_ior(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def coat_roughness(self) -> float:
+    def coat_normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @coat_normal.setter
+    def coat_normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def coat_roughness(self) -> float | TextureRef | OperationRef:
         """
         of the coat; in [0, 1]
         """
     @coat_roughness.setter
-    def coat_roughness(self, value: float) -> None: ...
+    def coat_roughness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def coat_tint(self) -> tuple[float, float, float] | TextureRef:
+    def coat_tint(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         what the coat lets through of light from straight above; in [0, 1]
         """
     @coat_tint.setter
     def coat_tint(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
-    def coat_weight(self) -> float:
+    def coat_weight(self) -> float | TextureRef | OperationRef:
         """
         of the clear coat beneath the sheen; in [0, 1]
         """
     @coat_weight.setter
-    def coat_weight(self, value: float) -> None: ...
+    def coat_weight(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def diffuse_roughness(self) -> float:
+    def diffuse_roughness(self) -> float | TextureRef | OperationRef:
         """
         as of the diffuse shader; in [0, 1]
         """
     @diffuse_roughness.setter
-    def diffuse_roughness(self, value: float) -> None: ...
+    def diffuse_roughness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
     def distribution(self) -> str:
         """
@@ -1145,80 +3388,93 @@ class PrincipledShader:
     @distribution.setter
     def distribution(self, value: str) -> None: ...
     @property
-    def emission(self) -> tuple[float, float, float] | TextureRef:
+    def emission(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         W / (m^2 sr), both sides; at least 0
         """
     @emission.setter
     def emission(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
-    def emission_strength(self) -> float:
+    def emission_strength(self) -> float | TextureRef | OperationRef:
         """
         multiplies the emission; at least 0
         """
     @emission_strength.setter
-    def emission_strength(self, value: float) -> None: ...
+    def emission_strength(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def ior(self) -> float:
+    def ior(self) -> float | TextureRef | OperationRef:
         """
         refractive index; at least 1
         """
     @ior.setter
-    def ior(self, value: float) -> None: ...
+    def ior(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def metallic(self) -> float:
+    def metallic(self) -> float | TextureRef | OperationRef:
         """
         0 a dielectric, 1 a metal; in [0, 1]
         """
     @metallic.setter
-    def metallic(self, value: float) -> None: ...
+    def metallic(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def roughness(self) -> float:
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def roughness(self) -> float | TextureRef | OperationRef:
         """
         the microfacets' alpha is its square; in [0, 1]
         """
     @roughness.setter
-    def roughness(self, value: float) -> None: ...
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def sheen_roughness(self) -> float:
+    def sheen_roughness(self) -> float | TextureRef | OperationRef:
         """
         as of the sheen shader; in [0, 1]
         """
     @sheen_roughness.setter
-    def sheen_roughness(self, value: float) -> None: ...
+    def sheen_roughness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def sheen_tint(self) -> tuple[float, float, float] | TextureRef:
+    def sheen_tint(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         colour of the fibres; in [0, 1]
         """
     @sheen_tint.setter
     def sheen_tint(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
-    def sheen_weight(self) -> float:
+    def sheen_weight(self) -> float | TextureRef | OperationRef:
         """
         of the fibres on top of all; in [0, 1]
         """
     @sheen_weight.setter
-    def sheen_weight(self, value: float) -> None: ...
+    def sheen_weight(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def specular_ior_level(self) -> float:
+    def specular_ior_level(self) -> float | TextureRef | OperationRef:
         """
         0.5 leaves the index's reflectance as it is; in [0, 1]
         """
     @specular_ior_level.setter
-    def specular_ior_level(self, value: float) -> None: ...
+    def specular_ior_level(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def specular_tint(self) -> tuple[float, float, float] | TextureRef:
+    def specular_tint(self) -> tuple[float, float, float] | TextureRef | OperationRef:
         """
         of a dielectric's reflection where it is met head on, of a metal's near grazing incidence; in [0, 1]
         """
     @specular_tint.setter
     def specular_tint(
-        self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
     @property
     def tangent(self) -> str:
@@ -1228,26 +3484,26 @@ class PrincipledShader:
     @tangent.setter
     def tangent(self, value: str) -> None: ...
     @property
-    def thin_film_ior(self) -> float:
+    def thin_film_ior(self) -> float | TextureRef | OperationRef:
         """
         refractive index of the film; above 0
         """
     @thin_film_ior.setter
-    def thin_film_ior(self, value: float) -> None: ...
+    def thin_film_ior(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def thin_film_thickness(self) -> float:
+    def thin_film_thickness(self) -> float | TextureRef | OperationRef:
         """
         of a thin film on it, nanometres; 0 is none; at least 0
         """
     @thin_film_thickness.setter
-    def thin_film_thickness(self, value: float) -> None: ...
+    def thin_film_thickness(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
-    def transmission(self) -> float:
+    def transmission(self) -> float | TextureRef | OperationRef:
         """
         how much of the dielectric is glass; in [0, 1]
         """
     @transmission.setter
-    def transmission(self, value: float) -> None: ...
+    def transmission(self, value: float | TextureRef | OperationRef) -> None: ...
 
 class VolumeShader:
     """
@@ -1353,16 +3609,19 @@ class MixShader:
     second: a node made before this one
     """
     def __init__(
-        self, factor: float | TextureRef = 0.5, first: int | None = None, second: int | None = None
+        self,
+        factor: float | TextureRef | OperationRef = 0.5,
+        first: int | None = None,
+        second: int | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def factor(self) -> float | TextureRef:
+    def factor(self) -> float | TextureRef | OperationRef:
         """
         0 is all the first, 1 all the second; in [0, 1]
         """
     @factor.setter
-    def factor(self, value: float | TextureRef) -> None: ...
+    def factor(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
     def first(self) -> int | None:
         """
@@ -1432,6 +3691,43 @@ class Material:
         """
         Appends a node and returns its index.
         """
+    def add_operation(
+        self,
+        operation: MathOperation
+        | VectorMathOperation
+        | MapRangeOperation
+        | ComponentOperation
+        | CombineOperation
+        | MixOperation
+        | TableOperation
+        | ConvertColorOperation
+        | HueSaturationOperation
+        | ToneOperation
+        | MappingOperation
+        | RotateOperation
+        | TransformOperation
+        | ChangeSpaceOperation
+        | SurfaceOperation
+        | AttributeOperation
+        | FresnelOperation
+        | NormalMapOperation
+        | TangentOperation
+        | WireframeOperation
+        | BumpOperation
+        | TextureOperation
+        | CheckerOperation
+        | GradientOperation
+        | WaveOperation
+        | MagicOperation
+        | BrickOperation
+        | NoiseOperation
+        | WhiteNoiseOperation
+        | VoronoiOperation
+        | GaborOperation,
+    ) -> OperationRef:
+        """
+        Appends an operation, which refers only to those before it, and returns what stands for its value.
+        """
     @property
     def nodes(
         self,
@@ -1457,9 +3753,48 @@ class Material:
         Copies of the nodes.
         """
     @property
+    def operations(
+        self,
+    ) -> list[
+        MathOperation
+        | VectorMathOperation
+        | MapRangeOperation
+        | ComponentOperation
+        | CombineOperation
+        | MixOperation
+        | TableOperation
+        | ConvertColorOperation
+        | HueSaturationOperation
+        | ToneOperation
+        | MappingOperation
+        | RotateOperation
+        | TransformOperation
+        | ChangeSpaceOperation
+        | SurfaceOperation
+        | AttributeOperation
+        | FresnelOperation
+        | NormalMapOperation
+        | TangentOperation
+        | WireframeOperation
+        | BumpOperation
+        | TextureOperation
+        | CheckerOperation
+        | GradientOperation
+        | WaveOperation
+        | MagicOperation
+        | BrickOperation
+        | NoiseOperation
+        | WhiteNoiseOperation
+        | VoronoiOperation
+        | GaborOperation
+    ]:
+        """
+        Copies of the operations.
+        """
+    @property
     def pass_index(self) -> int:
         """
-        for the pass Material Index
+        for the pass Material Index and operations that ask
         """
     @pass_index.setter
     def pass_index(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
@@ -3720,9 +6055,12 @@ class Instance:
     motion_transforms: object to world at further times, equally spaced: `transform` is when the shutter opens, the last when it closes; matrices are linear between them
     holdout: a hole in the picture, for camera rays
     shadow_catcher: the camera sees through it, darkened by the shadows of what is none
+    color: for materials that ask
+    alpha: of the colour, for materials that ask
+    random: in [0, 1], for materials that ask
     shadow_terminator_offset: cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
     shadow_terminator_shading_offset: how much light is dimmed that grazes the object; in [0, 1]
-    pass_index: for the pass Object Index
+    pass_index: for the pass Object Index and materials that ask
     asset_name: what it is part of, for the passes CryptoAsset; none: `name`
     """
     def __init__(
@@ -3735,6 +6073,9 @@ class Instance:
         motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
         holdout: bool = False,
         shadow_catcher: bool = False,
+        color: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
+        alpha: float = 1.0,
+        random: float = 0.0,
         shadow_terminator_offset: float = 0.0,
         shadow_terminator_shading_offset: float = 0.0,
         pass_index: int = 0,
@@ -3742,12 +6083,26 @@ class Instance:
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
+    def alpha(self) -> float:
+        """
+        of the colour, for materials that ask
+        """
+    @alpha.setter
+    def alpha(self, value: float) -> None: ...
+    @property
     def asset_name(self) -> str:
         """
         what it is part of, for the passes CryptoAsset; none: `name`
         """
     @asset_name.setter
     def asset_name(self, value: str) -> None: ...
+    @property
+    def color(self) -> tuple[float, float, float]:
+        """
+        for materials that ask
+        """
+    @color.setter
+    def color(self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike) -> None: ...
     @property
     def holdout(self) -> bool:
         """
@@ -3781,10 +6136,17 @@ class Instance:
     @property
     def pass_index(self) -> int:
         """
-        for the pass Object Index
+        for the pass Object Index and materials that ask
         """
     @pass_index.setter
     def pass_index(self, value: int) -> None: ...
+    @property
+    def random(self) -> float:
+        """
+        in [0, 1], for materials that ask
+        """
+    @random.setter
+    def random(self, value: float) -> None: ...
     @property
     def shadow_catcher(self) -> bool:
         """
@@ -3924,6 +6286,16 @@ class Scene:
     settings: RenderSettings
     def __init__(self) -> None: ...
     def __repr__(self) -> str: ...
+    def draw_environment(
+        self,
+        material: Material,
+        width: typing.SupportsInt | typing.SupportsIndex = 1024,
+        height: typing.SupportsInt | typing.SupportsIndex = 512,
+        is_camera_ray: bool = True,
+    ) -> Image:
+        """
+        What a material that emits shows in each direction, as an Image for an EnvironmentLayer, equirectangular. Its operations, with textures of this scene, run at the points one metre away. Raises SceneError.
+        """
     def matte_metadata(self, prefix: str = "") -> dict[str, str]:
         """
         Entries of an EXR header for the Cryptomatte passes among settings.passes; `prefix` comes before the layers' names.
