@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 import io
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -145,9 +145,12 @@ def settings_of(node: Any) -> Iterator[tuple[str, Any]]:
 def row_of(bl_idname: str, name: str) -> Row:
     """What becomes of one node."""
 
-    def tried(change: Callable[[Trial], None], output: str | None = None) -> list[str]:
+    def tried(output: str, linked: str = "", setting: str = "", value: Any = None) -> list[str]:
         trial = Trial.of(bl_idname)
-        change(trial)
+        if linked:
+            trial.vary(linked)
+        if setting:
+            setattr(trial.node, setting, value)
         enabled = [s.identifier for s in trial.node.outputs if s.enabled]
         trial.show(output if output in enabled else enabled[0])
         return trial.warnings()
@@ -157,17 +160,17 @@ def row_of(bl_idname: str, name: str) -> Row:
     inputs = [s.identifier for s in trial.node.inputs if s.enabled and s.name]
     settings = list(settings_of(trial.node))
     trial.warnings()
-    told = {label: tried(lambda _: None, identifier) for identifier, label in outputs.items()}
+    told = {label: tried(identifier) for identifier, label in outputs.items()}
     missing = [label for label, warnings in told.items() if is_missing(warnings)]
     if len(missing) == len(outputs):
         return Row(name, "no", ())
     shown = next(identifier for identifier, label in outputs.items() if label not in missing)
     notes = {text for label, texts in told.items() if label not in missing for text in texts}
     for identifier in inputs:
-        warnings = tried(lambda trial, i=identifier: trial.vary(i), shown)
+        warnings = tried(shown, linked=identifier)
         notes.update([f"{identifier} does not vary"] if is_missing(warnings) else warnings)
     for setting, value in settings:
-        warnings = tried(lambda trial, s=setting, v=value: setattr(trial.node, s, v), shown)
+        warnings = tried(shown, setting=setting, value=value)
         notes.update([f"{setting} {value} is left out"] if is_missing(warnings) else warnings)
     said = sorted({note.split('": ', 1)[-1] for note in notes})
     if missing:
