@@ -182,6 +182,11 @@ def bump_filter_width() -> float:
     return 0.1 if bpy.app.version >= (4, 3, 0) else 1.0
 
 
+def corrects_bumps(material: bpy.types.Material) -> bool:
+    """Whether light fades towards the smooth surface's terminator: Cycles' setting, on by default."""
+    return bool(getattr(getattr(material, "cycles", None), "use_bump_map_correction", True))
+
+
 def is_green_down(node: bpy.types.Node) -> bool:
     """Whether a Normal Map node takes green for down; a choice that 5.2 has."""
     return bool(getattr(node, "convention", "OPENGL") == "DIRECTX")

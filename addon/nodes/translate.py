@@ -69,10 +69,17 @@ def translate_surface(
         place = output_place(tree, "Surface")
         if place is not None:
             material.surface = translation.shader_at(place)
+        if _has_bumps(material) and not compat.corrects_bumps(b_material):
+            translation.warn("Bump Map Correction can't be switched off")
         fill(translation, tree)
         b_original: Any = b_material.original
         store.mesh_data[b_original.session_uid] = frozenset(translation.mesh_data)
     return material
+
+
+def _has_bumps(material: basicrt.Material) -> bool:
+    bumps = (basicrt.BumpOperation, basicrt.NormalMapOperation)
+    return any(isinstance(operation, bumps) for operation in material.operations)
 
 
 def _displace(translation: Translation, place: Place, b_material: bpy.types.Material) -> None:

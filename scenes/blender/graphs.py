@@ -119,6 +119,27 @@ def brick_wall(scene: bpy.types.Scene) -> None:
 
 
 @family
+def bumpy_things(scene: bpy.types.Scene) -> None:
+    """Bumps under diffuse and glossy light, near and grazing."""
+    graph = Graph("Dented")
+    dents = graph.node("TexVoronoi", Vector=graph.coordinates("Object"), Scale=4.0)
+    bump = graph.node("Bump", Height=dents.outputs["Distance"], Strength=0.6, Distance=0.1)
+    dented = graph.node(
+        "BsdfPrincipled", Base_Color=(0.7, 0.3, 0.2), Roughness=0.5, Normal=bump.outputs[0]
+    )
+    corner(scene, graph.finish(dented))
+    rough = Graph("Plaster")
+    grain = rough.node("TexNoise", Vector=rough.coordinates("Object"), Scale=3.0, Detail=1.0)
+    bump = rough.node("Bump", Height=grain.outputs[0], Strength=0.8, Distance=0.3)
+    plaster = rough.node("BsdfDiffuse", Color=(0.7, 0.7, 0.65), Normal=bump.outputs[0])
+    material = rough.finish(plaster)
+    for name in ("Wall", "Floor", "Box"):
+        cover(name, material)
+    stage.lamp("SUN", "Sun", (0, 0, 3), (65, -20, 0), 2.0, angle=0.05)
+    ceiling_lamp()
+
+
+@family
 def cracked_cells(scene: bpy.types.Scene) -> None:
     """Voronoi cells of several shaders, mixed."""
     graph = Graph("Cells")

@@ -194,6 +194,13 @@ def test_bumps_have_a_filter_width_from_4_3_on() -> None:
     assert compat.bump_filter_width() == pytest.approx(expected)
 
 
+def test_bumps_are_corrected_unless_a_material_says_otherwise() -> None:
+    material, _tree, _output = empty_material()
+    assert compat.corrects_bumps(material)
+    material.cycles.use_bump_map_correction = False
+    assert not compat.corrects_bumps(material)
+
+
 def test_green_is_down_only_where_a_node_says_so() -> None:
     node = empty_material()[1].nodes.new("ShaderNodeNormalMap")
     assert not compat.is_green_down(node)

@@ -176,6 +176,10 @@ def test_true_displacement_is_reported() -> None:
 # ---- shaders -------------------------------------------------------------------------------------
 
 
+# Of the picture's maximum. Blender 4.2 has another formula for how diffuse light fades on bumps.
+FADES_ALIKE = 0.004 if bpy.app.version >= (4, 3, 0) else 0.05
+
+
 def light(angle: float = 0.5) -> None:
     """A hard sun that makes each pixel exact."""
     add_lamp("SUN", (0, 0, 5), (angle, 0.3, 0), energy=20, angle=0)
@@ -189,10 +193,8 @@ def compare_shaders(tree: Any, shader: Any, folder: Path, angle: float = 0.5) ->
     ours, theirs = render_both(folder)
     assert np.ptp(theirs[..., :3]) > 0.05
     differences = np.abs(ours - theirs)[..., :3].max(axis=2)
-    # Cycles dims diffuse light where the normal turns away from the surface's, in 4.2 more.
-    assert (differences > 0.015 * theirs.max()).mean() <= 0.03, np.sort(differences.ravel())[::-1][
-        :8
-    ]
+    worst = np.sort(differences.ravel())[::-1][:8] / theirs.max()
+    assert (differences > FADES_ALIKE * theirs.max()).mean() <= 0.03, worst
 
 
 SHADERS = ["Diffuse", "Translucent", "Anisotropic", "Sheen", "Toon", "Principled"]
@@ -206,9 +208,16 @@ def test_normal_of_a_shader(name: str, tmp_path: Path) -> None:
     node = tree.nodes.new(f"ShaderNodeBsdf{name}")
     tree.links.new(normal_map(tree).outputs[0], node.inputs["Normal"])
     behind = math.pi - 0.5
-    if name == "Translucent" and bpy.app.version < (4, 3, 0):
-        pytest.skip("Cycles 4.2 dims light that comes through")
     compare_shaders(tree, node.outputs[0], tmp_path, behind if name == "Translucent" else 0.5)
+
+
+@pytest.mark.parametrize("angle", [0.9, 1.3])
+@pytest.mark.skipif(bpy.app.version < (4, 3, 0), reason="4.2 has another formula")
+def test_diffuse_light_fades_at_grazing_angles(angle: float, tmp_path: Path) -> None:
+    tree, _emission, _made = plane()
+    node = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    tree.links.new(normal_map(tree).outputs[0], node.inputs["Normal"])
+    compare_shaders(tree, node.outputs[0], tmp_path, angle)
 
 
 def test_two_shaders_with_normals_of_their_own(tmp_path: Path) -> None:

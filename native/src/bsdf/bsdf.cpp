@@ -3,10 +3,21 @@
 #include "bsdf/bsdf.h"
 
 #include <algorithm>
+#include <cmath>
+#include <type_traits>
 
 namespace basicrt {
 
+namespace {
+
+template <class OneLobe>
+constexpr bool is_diffuse = std::is_same_v<OneLobe, Lambert> || std::is_same_v<OneLobe, OrenNayar> ||
+                            std::is_same_v<OneLobe, Translucent> || std::is_same_v<OneLobe, DiffuseToon>;
+
+}  // namespace
+
 void Bsdf::use_normal(Vec3f normal) {
+  is_turned_ = is_turned_ || normal != smooth_normal_;
   if (lobes_.count == 0 || frame_.normal == normal) {
     if (frame_.normal != normal) frame_ = make_frame(normal);
     current_frame_ = 0;
@@ -16,6 +27,19 @@ void Bsdf::use_normal(Vec3f normal) {
   const auto found = std::ranges::find(others, normal, &Frame::normal);
   current_frame_ = static_cast<std::uint8_t>(found - others.begin() + 1);
   if (found == others.end()) other_frames_.append(make_frame(normal));
+}
+
+// Diffuse light fades towards the terminator of the smooth surface as if the bumps were microfacets (Estevez, Lecocq and
+// Stein 2019, "A microfacet-based shadowing function to solve the bump terminator problem").
+float Bsdf::bump_shadowing(const WeightedLobe& lobe, const Frame& frame, Vec3f wi) const {
+  const bool is_soft = std::visit([]<class OneLobe>(const OneLobe&) { return is_diffuse<OneLobe>; }, lobe.lobe);
+  if (!is_soft || frame.normal == smooth_normal_) return 1;
+  const float cos_bump = std::abs(dot(smooth_normal_, frame.normal)), cos_wi = std::abs(dot(smooth_normal_, wi));
+  if (cos_bump >= 1 || cos_wi >= 1) return 1;
+  if (cos_wi < 1e-6f) return 0;
+  const auto squared_tangent = [](float cosine) { return 1 / (cosine * cosine) - 1; };
+  const float squared_alpha = std::min(squared_tangent(cos_bump) / 8, 1.0f);
+  return 2 / (1 + std::sqrt(1 + squared_alpha * squared_tangent(cos_wi)));
 }
 
 LobeValue Bsdf::eval_turned(Vec3f wo, Vec3f wi, const WeightedLobe* except, bool may_leak) const {
@@ -28,7 +52,7 @@ LobeValue Bsdf::eval_turned(Vec3f wo, Vec3f wi, const WeightedLobe* except, bool
     const bool is_leak = leaks(side, wi, local_wi);
     if (is_leak && !(may_leak && local_wi.z > 0)) continue;
     const LobeValue lobe = std::visit([&](const auto& l) { return l.eval(side.wo, local_wi); }, weighted.lobe);
-    sum.value += weighted.weight * lobe.value;
+    sum.value += weighted.weight * lobe.value * bump_shadowing(weighted, frame, wi);
     if (!is_leak) sum.pdf += weighted.selection / selection_ * lobe.pdf;
   }
   return sum;
@@ -41,11 +65,12 @@ BsdfValue Bsdf::eval_kinds(Vec3f wo, Vec3f wi, std::uint32_t kinds) const {
     const Side side = find_side(frame, wo);
     const Vec3f local_wi = frame.to_local(wi * side.sign);
     if (leaks(side, wi, local_wi)) continue;
+    const Color weight = weighted.weight * bump_shadowing(weighted, frame, wi);
     std::visit(
         [&]<class OneLobe>(const OneLobe& lobe) {
           ScatterKind kind = local_wi.z > 0 ? ScatterKind::glossy : ScatterKind::transmission;
           if constexpr (is_reflection<OneLobe>) kind = OneLobe::reflection_kind;
-          if ((ray_kind(kind) & kinds) != 0) sum.value += weighted.weight * lobe.eval(side.wo, local_wi).value;
+          if ((ray_kind(kind) & kinds) != 0) sum.value += weight * lobe.eval(side.wo, local_wi).value;
         },
         weighted.lobe);
   }
@@ -72,16 +97,16 @@ std::optional<BsdfSample> Bsdf::sample(Vec3f wo, float choice, Vec2f u) const {
   const bool is_straight = lobe->kind == ScatterKind::transparent;
   const Vec3f wi = is_straight ? -wo : frame.to_world(lobe->wi) * side.sign;
   if (!is_straight && leaks(side, wi, lobe->wi)) return std::nullopt;
+  const float shadowing = is_turned_ ? bump_shadowing(weighted, frame, wi) : 1;
 
-  BsdfSample sample{wi,         weighted.weight * lobe->weight,
-                    lobe->pdf,  lobe->is_delta,
+  BsdfSample sample{wi,         weighted.weight * lobe->weight * shadowing,        lobe->pdf, lobe->is_delta,
                     lobe->kind, std::holds_alternative<Translucent>(weighted.lobe)};
   if (lobe->is_delta) {
     sample.weight *= 1 / probability;
     sample.pdf = probability;
   } else if (lobes.size() > 1) {
     const LobeValue others =
-        is_turned() ? eval_turned(wo, wi, &weighted, false) : eval_lobes(side.wo, lobe->wi, &weighted);
+        is_turned_ ? eval_turned(wo, wi, &weighted, false) : eval_lobes(side.wo, lobe->wi, &weighted);
     sample.pdf = probability * lobe->pdf + others.pdf;
     sample.weight = (sample.weight * lobe->pdf + others.value) / sample.pdf;
   }

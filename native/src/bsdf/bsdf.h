@@ -53,8 +53,8 @@ struct BsdfValue {
 };
 
 // The lobes of one surface point as seen from one direction, few and of fixed room, so that shading never allocates.
-// Lobes may have normals of their own. Light that the shading normal would let leak through the geometric surface is cut off: wi must lie on the same side
-// of both.
+// Lobes may have normals of their own, which bumps give them. Light that the shading normal would let leak through the
+// geometric surface is cut off: wi must lie on the same side of both.
 class Bsdf {
  public:
   static constexpr int max_lobes = 16;
@@ -62,11 +62,12 @@ class Bsdf {
   Bsdf() = default;
   // The normals keep the surface's own side, as in SurfacePoint.
   Bsdf(const Frame& shading_frame, Vec3f geometric_normal)
-      : frame_(shading_frame), geometric_normal_(geometric_normal) {}
+      : frame_(shading_frame), geometric_normal_(geometric_normal), smooth_normal_(shading_frame.normal) {}
   // The lobes of another surface point.
   Bsdf(const Frame& shading_frame, Vec3f geometric_normal, const Bsdf& other)
       : frame_(shading_frame),
         geometric_normal_(geometric_normal),
+        smooth_normal_(shading_frame.normal),
         albedo_(other.albedo_),
         selection_(other.selection_),
         has_only_deltas_(other.has_only_deltas_),
@@ -104,8 +105,8 @@ class Bsdf {
   // Where all light must come from that eval() is to see: the side of a surface with this normal, of unit length. Zero
   // where it may come from anywhere.
   [[nodiscard]] Vec3f lit_side(Vec3f wo) const {
-    return only_reflects_ && !is_turned() ? frame_.normal * (dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f)
-                                          : Vec3f(0.0f);
+    return only_reflects_ && other_frames_.count == 0 ? frame_.normal * (dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f)
+                                                      : Vec3f(0.0f);
   }
   // A cheap guess of the reflected and transmitted share, for Russian roulette and passes.
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
@@ -164,7 +165,8 @@ class Bsdf {
     const float sign = dot(geometric_normal_, wo) < 0 ? -1.0f : 1.0f;
     return {sign, frame.to_local(wo * sign)};
   }
-  [[nodiscard]] bool is_turned() const { return other_frames_.count > 0; }  // not all lobes have frame_
+  // Of what a lobe scatters there.
+  [[nodiscard]] float bump_shadowing(const WeightedLobe& lobe, const Frame& frame, Vec3f wi) const;
   [[nodiscard]] const Frame& frame_of(const WeightedLobe& lobe) const {
     return lobe.frame == 0 ? frame_ : other_frames_.items[lobe.frame - 1];
   }
@@ -178,10 +180,11 @@ class Bsdf {
   void rebuild(auto&& change);
 
   Frame frame_;
-  Vec3f geometric_normal_{0, 0, 1};
+  Vec3f geometric_normal_{0, 0, 1}, smooth_normal_{0, 0, 1};
   Color albedo_{0.0f};
   float selection_ = 0;
   bool has_only_deltas_ = true, only_reflects_ = true;
+  bool is_turned_ = false;  // some lobes may have another normal than the surface
   List<WeightedLobe> lobes_;
   List<Frame> other_frames_;
   std::uint8_t current_frame_ = 0;
@@ -203,7 +206,7 @@ inline LobeValue Bsdf::eval_lobes(Vec3f wo, Vec3f wi, const WeightedLobe* except
 }
 
 inline BsdfValue Bsdf::eval(Vec3f wo, Vec3f wi) const {
-  if (is_turned()) {
+  if (is_turned_) {
     const LobeValue sum = eval_turned(wo, wi, nullptr, false);
     return {sum.value, sum.pdf};
   }
@@ -215,7 +218,7 @@ inline BsdfValue Bsdf::eval(Vec3f wo, Vec3f wi) const {
 }
 
 inline BsdfValue Bsdf::eval_smooth(Vec3f wo, Vec3f wi) const {
-  if (is_turned()) {
+  if (is_turned_) {
     const LobeValue sum = eval_turned(wo, wi, nullptr, true);
     return {sum.value, sum.pdf};
   }

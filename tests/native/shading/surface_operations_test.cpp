@@ -77,7 +77,7 @@ TEST(SurfaceOperations, bumps_lean_by_their_slope) {
   EXPECT_EQ(std::get<BumpOperation>(compiled.operations[3]).steps, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
-// Each lobe counts with its own cosine.
+// Each lobe counts with its own cosine, and the turned one fades a little.
 TEST(SurfaceOperations, shaders_keep_normals_of_their_own) {
   const Vec3f tilted = normalize(Vec3f{0.6f, 0, 0.8f}), light = normalize(Vec3f{0.3f, 0.1f, 1});
   Material material;
@@ -85,9 +85,35 @@ TEST(SurfaceOperations, shaders_keep_normals_of_their_own) {
   const NodeIndex second = material.add(DiffuseShader{.color = Color(1.0f), .normal = tilted});
   material.surface = material.add(MixShader{.factor = 0.25f, .first = first, .second = second});
   const Bsdf bsdf = shade(material, no_textures, point_at(0.2f, 0.2f), {0, 0, 1}).bsdf;
-  const float expected = (0.75f * light.z + 0.25f * dot(tilted, light)) / pi;
-  EXPECT_NEAR(bsdf.eval({0, 0, 1}, light).value.x, expected, 1e-6f);
-  EXPECT_NEAR(bsdf.eval({0, 0, 1}, light).pdf, expected, 1e-6f);
+  // The tangents' squares are 0.5625 of the tilt and 0.1 of the light.
+  const float fade = 2 / (1 + std::sqrt(1 + 0.5625f / 8 * 0.1f));
+  const float even = 0.75f * light.z, turned = 0.25f * dot(tilted, light);
+  EXPECT_NEAR(bsdf.eval({0, 0, 1}, light).value.x, (even + turned * fade) / pi, 1e-6f);
+  EXPECT_NEAR(bsdf.eval({0, 0, 1}, light).pdf, (even + turned) / pi, 1e-6f);
+}
+
+TEST(SurfaceOperations, turned_lobes_scatter_what_they_evaluate_to) {
+  const Vec3f tilted = normalize(Vec3f{0.6f, 0, 0.8f}), wo = normalize(Vec3f{-0.2f, 0.3f, 1});
+  Material material;
+  const NodeIndex first = material.add(DiffuseShader{.color = Color(0.9f), .normal = normalize(Vec3f{-0.5f, 0.4f, 1})});
+  const NodeIndex second = material.add(DiffuseShader{.color = Color(0.6f), .normal = tilted});
+  material.surface = material.add(MixShader{.factor = 0.4f, .first = first, .second = second});
+  const Bsdf bsdf = shade(material, no_textures, point_at(0.2f, 0.2f), wo).bsdf;
+  constexpr int side = 128, count = side * side;
+  double sampled = 0, evaluated = 0;
+  for (int i = 0; i < count; ++i) {
+    const Vec2f u{(static_cast<float>(i % side) + 0.5f) / side, (static_cast<float>(i / side) + 0.5f) / side};
+    for (int choice = 0; choice < 8; ++choice)
+      if (const auto scattered = bsdf.sample(wo, (static_cast<float>(choice) + 0.5f) / 8, u)) {
+        sampled += scattered->weight.x / 8;
+        EXPECT_NEAR(bsdf.eval(wo, scattered->wi).value.x / scattered->pdf, scattered->weight.x, 1e-4f);
+      }
+    const float z = u.x, across = std::sqrt(1 - z * z), phi = 2 * pi * u.y;
+    const Vec3f wi{across * std::cos(phi), across * std::sin(phi), z};
+    evaluated += bsdf.eval(wo, wi).value.x * 2 * pi;
+  }
+  // Eight choices don't split quite as the lobes' shares do.
+  EXPECT_NEAR(sampled / evaluated, 1, 0.01);
 }
 
 }  // namespace
