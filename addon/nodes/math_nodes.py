@@ -33,6 +33,10 @@ def math(of: Operands, _output: str) -> Value:
 @operation("ShaderNodeVectorMath")
 def vector_math(of: Operands, output: str) -> Value:
     """A vector or a number of up to three vectors."""
+    if of.node.operation == "ROUND":  # from 5.2 on
+        raised = basicrt.VectorMathOperation("add", of.vector("Vector"), (0.5, 0.5, 0.5))
+        up = of.add("vector", raised).data
+        return of.add("vector", basicrt.VectorMathOperation("floor", up))
     return of.add(
         "number" if output == "Value" else "vector",
         basicrt.VectorMathOperation(

@@ -115,7 +115,10 @@ def output_value(translation: Translation, source: Place) -> Value | None:
     if address not in translation.values:
         function = OPERATIONS.get(node.bl_idname)
         view = NodeView(node, source.groups, translation)
-        found = function(Operands(view), source.socket.identifier) if function else None
+        try:
+            found = function(Operands(view), source.socket.identifier) if function else None
+        except basicrt.SceneError:  # a setting that only a newer Blender has
+            found = None
         translation.values[address] = found
     return translation.values[address]
 

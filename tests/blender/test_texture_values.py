@@ -36,6 +36,9 @@ WIDTH = 64
 ROWS = 8  # of a case
 OFFSET = 16.0
 TOLERANCE = 1e-4
+# Points of which the Cycles of Blender 5.2 rounds otherwise what distortions and octaves then multiply.
+ROUNDED = 40 if bpy.app.version >= (5, 2, 0) else 0
+SENSITIVE = ("ShaderNodeTexNoise", "ShaderNodeTexMagic")
 BITS = 10  # of a coordinate: from -4 to 4 in steps of 1 / 128
 
 
@@ -222,7 +225,8 @@ def compare(cases: list[Case], folder: Path) -> None:
         differs = ~(error.max(axis=1) <= case.tolerance)
         if np.ptp(b) == 0:
             wrong.append(f"{case}: shows nothing that could differ ({b[0]})")
-        if differs.sum() > case.steps:
+        allowed = case.steps + (ROUNDED if case.bl_idname in SENSITIVE else 0)
+        if differs.sum() > allowed:
             worst = np.argmax(error.max(axis=1))
             place = _coordinates()[worst] / 128 - 4
             wrong.append(
