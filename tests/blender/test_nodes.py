@@ -6,6 +6,7 @@ from typing import Any
 import bpy
 import pytest
 from addon.nodes import Textures, translate_surface
+from addon.nodes.operations import OPERATIONS
 from addon.report import Report
 
 import basicrt
@@ -362,6 +363,22 @@ def test_unsupported_texture_leaves_the_sockets_own_value() -> None:
         tree.links.new(tree.nodes.new("ShaderNodeTexIES").outputs[0], socket)
 
     warning = 'node "Diffuse BSDF": Color is linked to "IES Texture", which is not supported: its own value is used'
+    assert only_node(diffuse_with(link), warning).color == COLOR
+
+
+def test_a_setting_of_a_newer_blender_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    def unknown(_of: Any, _output: str) -> None:
+        basicrt.VectorMathOperation(operation="entangle")
+
+    def link(tree: Any, socket: Any) -> None:
+        socket.default_value = (*COLOR, 1)
+        node = tree.nodes.new("ShaderNodeVectorMath")
+        position = tree.nodes.new("ShaderNodeNewGeometry").outputs["Position"]
+        tree.links.new(position, node.inputs[0])
+        tree.links.new(node.outputs[0], socket)
+
+    monkeypatch.setitem(OPERATIONS, "ShaderNodeVectorMath", unknown)
+    warning = 'node "Diffuse BSDF": Color is linked to "Vector Math", which is not supported: its own value is used'
     assert only_node(diffuse_with(link), warning).color == COLOR
 
 
