@@ -17,19 +17,16 @@ from ..report import Report
 from .graph import Groups, Place, find_socket, trace
 from .images import Textures
 from .mesh_data import MeshData
-from .operations import OPERATIONS, Value, as_vector, finite, output_value, value_at
+from .operations import OPERATIONS, Value, as_vector, output_value, raw_value, value_at
 from .operations import as_number as number_of
 
 Color = tuple[float, float, float]
 NodeIndex = int | None
 ShaderFunction = Callable[["NodeView"], NodeIndex]
-ValueFunction = Callable[["NodeView"], float | Color]
 TextureFunction = Callable[["NodeView"], int]
 
 # bl_idname -> the function that translates such a node.
 SHADERS: dict[str, ShaderFunction] = {}
-# bl_idname -> the function that gives the value of a node's only output, where that is constant.
-VALUES: dict[str, ValueFunction] = {}
 # bl_idname -> the function that gives the index of such a node's texture in the scene.
 TEXTURES: dict[str, TextureFunction] = {}
 
@@ -39,16 +36,6 @@ def shader(*bl_idnames: str) -> Callable[[ShaderFunction], ShaderFunction]:
 
     def register(function: ShaderFunction) -> ShaderFunction:
         SHADERS.update(dict.fromkeys(bl_idnames, function))
-        return function
-
-    return register
-
-
-def value(*bl_idnames: str) -> Callable[[ValueFunction], ValueFunction]:
-    """Decorates the function that gives these nodes' value."""
-
-    def register(function: ValueFunction) -> ValueFunction:
-        VALUES.update(dict.fromkeys(bl_idnames, function))
         return function
 
     return register
@@ -104,16 +91,16 @@ class Translation:
         """The shader that a node makes; a colour shines, as Blender has it."""
         if view.bl_idname in SHADERS:
             return SHADERS[view.bl_idname](view)
-        if view.bl_idname in VALUES:
-            return view.add(
-                basicrt.EmissionShader(radiance=positive(as_color(view.output_value())))
-            )
         if view.bl_idname in TEXTURES and not self.is_volume and is_over_uv(view):
             reference = basicrt.TextureRef(TEXTURES[view.bl_idname](view))
             return view.add(basicrt.EmissionShader(radiance=reference))
-        if view.bl_idname in OPERATIONS and not self.is_volume:
-            value = value_at(view, place)
-            return view.add(basicrt.EmissionShader(radiance=as_vector(value)))
+        if view.bl_idname in OPERATIONS:
+            value = output_value(self, trace(place)) if self.is_volume else value_at(view, place)
+            radiance = None if value is None else as_vector(value)
+            if isinstance(radiance, tuple):
+                return view.add(basicrt.EmissionShader(radiance=positive(radiance)))
+            if radiance is not None and not self.is_volume:
+                return view.add(basicrt.EmissionShader(radiance=radiance))
         if self.is_volume:
             self.warn(f"{view.title} is not supported in a volume and left out")
             return None
@@ -147,14 +134,6 @@ class NodeView:
         """Append a shader to the material."""
         return int(self.translation.material.add(made))
 
-    def output_value(self) -> float | Color:
-        """What a node of VALUES puts out."""
-        return VALUES[self.bl_idname](self)
-
-    def constant_output(self) -> float | Color | None:
-        """output_value(), None for another node."""
-        return self.output_value() if self.bl_idname in VALUES else None
-
     def number(self, identifier: str, lowest: float = 0.0, highest: float = math.inf) -> float:
         """The value of an input, within limits beyond which Blender's own renderers don't go."""
         return min(max(as_number(self._value(identifier)), lowest), highest)
@@ -176,8 +155,7 @@ class NodeView:
 
     def normal(self, identifier: str = "Normal") -> Color | basicrt.OperationRef:
         """A normal in world space; zero is the surface's own."""
-        socket = find_socket(self.node.inputs, identifier)
-        if socket is None or not trace(Place(socket, self.groups)).socket.is_output:
+        if self._output_at(identifier) is None:
             return self.translation.normal
         found: Any = self._varying_at(identifier)
         if found is None:
@@ -237,8 +215,14 @@ class NodeView:
             if socket is None:
                 continue
             source = trace(Place(socket, self.groups)).socket
-            if source.is_output or (harmless is not None and _raw_value(source) != harmless):
+            if source.is_output or (harmless is not None and raw_value(source) != harmless):
                 self.warn(f"{identifier} is not supported and left out")
+
+    def _output_at(self, identifier: str) -> Place | None:
+        """The output that feeds an input, None where nothing does or there is no such input."""
+        socket = find_socket(self.node.inputs, identifier)
+        source = trace(Place(socket, self.groups)) if socket else None
+        return source if source and source.socket.is_output else None
 
     def _varying_at(
         self, identifier: str, is_share: bool = False
@@ -247,14 +231,8 @@ class NodeView:
         texture = self._texture_at(identifier, is_share)
         if texture is not None or self.translation.is_volume:
             return texture
-        socket = find_socket(self.node.inputs, identifier)
-        source = trace(Place(socket, self.groups)) if socket else None
-        node: Any = source.socket.node if source and source.socket.is_output else None
-        if source is None or node is None or node.bl_idname in VALUES:
-            return None
-        if node.bl_idname not in OPERATIONS:
-            return None
-        value = output_value(self.translation, source)
+        source = self._output_at(identifier)
+        value = output_value(self.translation, source) if source else None
         if value is None:
             return None
         data = number_of(self.translation, value) if is_share else as_vector(value)
@@ -264,10 +242,9 @@ class NodeView:
         """The texture that is linked to an input, None where none is or may be."""
         if self.translation.is_volume:
             return None
-        socket = find_socket(self.node.inputs, identifier)
-        source = trace(Place(socket, self.groups)) if socket else None
-        node: Any = source.socket.node if source and source.socket.is_output else None
-        if node is None or source is None or node.bl_idname not in TEXTURES:
+        source = self._output_at(identifier)
+        node: Any = source.socket.node if source else None
+        if source is None or node.bl_idname not in TEXTURES:
             return None
         is_alpha = source.socket.identifier == "Alpha"
         if is_alpha and not is_share:
@@ -284,17 +261,15 @@ class NodeView:
             raise KeyError(f"{self.bl_idname} has no input {identifier}")
         source = trace(Place(socket, self.groups))
         if not source.socket.is_output:
-            return _raw_value(source.socket)
+            return raw_value(source.socket)
         node: Any = source.socket.node
-        if node.bl_idname in VALUES:
-            return NodeView(node, source.groups, self.translation).output_value()
-        found = output_value(self.translation, source) if node.bl_idname in OPERATIONS else None
+        found = output_value(self.translation, source)
         if found is not None and not isinstance(found.data, basicrt.OperationRef):
             return found.data
         self.warn(
             f'{identifier} is linked to "{compat.node_name(node)}", which is not supported: its own value is used'
         )
-        return _raw_value(socket)
+        return raw_value(socket)
 
 
 def is_over_uv(view: NodeView) -> bool:
@@ -316,14 +291,6 @@ def is_over_uv(view: NodeView) -> bool:
     moves = (find_socket(origin.node.inputs, name) for name in ("Location", "Rotation", "Scale"))
     is_constant = not any(trace(Place(s, origin.groups)).socket.is_output for s in moves if s)
     return is_constant and is_over_uv(origin)
-
-
-def _raw_value(socket: Any) -> float | Color:
-    """A socket's default_value; a colour without its alpha."""
-    raw = socket.default_value
-    if isinstance(raw, (int, float)):
-        return finite(raw)
-    return finite(raw[0]), finite(raw[1]), finite(raw[2])
 
 
 def as_number(value: float | Color) -> float:

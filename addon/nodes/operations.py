@@ -124,14 +124,20 @@ def output_value(translation: Translation, source: Place) -> Value | None:
 
 
 def _own_value(socket: Any) -> Value:
+    data = raw_value(socket)
+    is_number = isinstance(data, float)
+    return Value("number" if is_number else _KINDS.get(socket.type, "vector"), data)
+
+
+def raw_value(socket: Any) -> float | tuple[float, float, float]:
+    """A socket's constant, a colour without its alpha; 0 for one without, as a shader's."""
     raw = getattr(socket, "default_value", 0.0)
-    if isinstance(raw, (bool, int, float)):
-        return Value("number", finite(raw))
-    kind = _KINDS.get(socket.type, "vector")
-    return Value(kind, (finite(raw[0]), finite(raw[1]), finite(raw[2])))
+    if isinstance(raw, (int, float)):
+        return _finite(raw)
+    return _finite(raw[0]), _finite(raw[1]), _finite(raw[2])
 
 
-def finite(number: float) -> float:
+def _finite(number: float) -> float:
     """The number, 0 where it is none: constants that Blender computed may be infinite or NaN."""
     return float(number) if math.isfinite(number) else 0.0
 

@@ -145,9 +145,9 @@ def checker(of: Operands, output: str) -> Value:
 @operation("ShaderNodeTexGradient")
 def gradient(of: Operands, output: str) -> Value:
     """A number that rises."""
-    kind = of.node.gradient_type.lower()
-    names = {"quadratic_sphere": "quadratic_sphere", "spherical": "spherical"}
-    made = basicrt.GradientOperation(gradient=names.get(kind, kind), vector=_mapped_vector(of))
+    made = basicrt.GradientOperation(
+        gradient=of.node.gradient_type.lower(), vector=_mapped_vector(of)
+    )
     return of.add("color" if output == "Color" else "number", made)
 
 

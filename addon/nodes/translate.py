@@ -12,7 +12,7 @@ import basicrt
 
 from .. import compat
 from ..report import Report
-from . import coordinate_nodes, math_nodes, pattern_nodes, shaders, textures, values, volumes
+from . import coordinate_nodes, math_nodes, pattern_nodes, shaders, textures, volumes
 from .coordinate_nodes import displacement_normal
 from .graph import Place, find_socket, trace
 from .images import Textures
@@ -24,7 +24,6 @@ assert math_nodes
 assert pattern_nodes
 assert shaders
 assert textures
-assert values
 assert volumes
 
 

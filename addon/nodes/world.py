@@ -17,7 +17,7 @@ from .coordinates import Coordinates, coordinates_at
 from .graph import Place, find_socket, trace
 from .images import MISSING, Textures
 from .node_view import Color, NodeView, Translation, as_color, positive, scaled
-from .operations import output_value
+from .operations import output_value, raw_value
 from .sky import convert_sky
 from .textures import INTERPOLATIONS
 from .translate import fill, output_place
@@ -177,31 +177,25 @@ def _color_layer(
     """The layer of a colour that arrives at an input of a background."""
     source = trace(place)
     if not source.socket.is_output:
-        return _plain_layer(positive(as_color(_own_value(source.socket))), factor, seen_by)
+        return _plain_layer(positive(as_color(raw_value(source.socket))), factor, seen_by)
     node: Any = source.socket.node
     origin = NodeView(node, source.groups, view.translation)
     if origin.bl_idname in _TEXTURES:
         return _textured_layer(origin, factor, seen_by)
-    color = origin.constant_output()
-    if color is not None:
-        return _plain_layer(positive(as_color(color)), factor, seen_by)
     before = _environment_before(origin)
     is_sky = before is not None and before.bl_idname == "ShaderNodeTexSky"
-    if not is_sky and output_value(view.translation, source) is not None:
-        raise _NotLayersError
+    value = None if is_sky else output_value(view.translation, source)
+    if value is not None:
+        if isinstance(value.data, basicrt.OperationRef):
+            raise _NotLayersError
+        return _plain_layer(positive(as_color(value.data)), factor, seen_by)
     if before is not None:
         view.translation.warn(f"{origin.title} is not supported in a world and left out")
         return _textured_layer(before, factor, seen_by)
     view.translation.warn(
         f"{origin.title} is not supported in a world: the socket's own colour is used"
     )
-    return _plain_layer(positive(as_color(_own_value(place.socket))), factor, seen_by)
-
-
-def _own_value(socket: Any) -> float | Color:
-    """A socket's constant; black for one without, as a shader's."""
-    raw = getattr(socket, "default_value", 0.0)
-    return float(raw) if isinstance(raw, (int, float)) else (raw[0], raw[1], raw[2])
+    return _plain_layer(positive(as_color(raw_value(place.socket))), factor, seen_by)
 
 
 def _plain_layer(color: Color, factor: float, seen_by: str) -> basicrt.EnvironmentLayer:
