@@ -212,6 +212,11 @@ _OLD_PASS_NAMES = {
 }
 
 
+def random_walk() -> str:
+    """The core's model of Random Walk: 5.2 measures its radius anew, and calls the old one Legacy."""
+    return "van_de_hulst" if bpy.app.version >= (5, 2) else "chiang"
+
+
 def pass_name(name: str) -> str:
     """What this Blender calls a pass of the core, which has the names of 5.0."""
     return name if bpy.app.version >= (5, 0, 0) else _OLD_PASS_NAMES.get(name, name)

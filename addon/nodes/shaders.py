@@ -7,6 +7,7 @@ from typing import Any
 
 import basicrt
 
+from .. import compat
 from .graph import Place, find_socket, trace
 from .node_view import NodeIndex, NodeView, shader
 
@@ -63,6 +64,15 @@ def _thin_film(view: NodeView) -> dict[str, Any]:
         "thin_film_thickness": thickness,
         "thin_film_ior": view.varying_number("Thin Film IOR", 1e-5),
     }
+
+
+def _subsurface_model(view: NodeView, method: str) -> str:
+    """The core's name of how light goes about beneath a surface."""
+    if method == "BURLEY":
+        view.warn("Christensen-Burley is drawn as Random Walk")
+    if method == "RANDOM_WALK":
+        return compat.random_walk()
+    return "skin" if method == "RANDOM_WALK_SKIN" else "chiang"
 
 
 @shader("ShaderNodeBsdfDiffuse")
@@ -155,6 +165,24 @@ def toon(view: NodeView) -> NodeIndex:
     )
 
 
+@shader("ShaderNodeSubsurfaceScattering")
+def subsurface(view: NodeView) -> NodeIndex:
+    """Light goes about beneath the surface."""
+    node: Any = view.node
+    return view.add(
+        basicrt.SubsurfaceShader(
+            color=view.color("Color"),
+            radius=view.varying_light("Radius"),
+            scale=view.varying_number("Scale"),
+            ior=view.varying_number("IOR", 1e-5),
+            alpha=view.share("Roughness"),
+            anisotropy=view.varying_number("Anisotropy", -1, 1),
+            model=_subsurface_model(view, node.falloff),
+            normal=view.normal(),
+        )
+    )
+
+
 @shader("ShaderNodeBsdfGlass")
 def glass(view: NodeView) -> NodeIndex:
     """Fresnel reflection and refraction, both tinted."""
@@ -222,8 +250,8 @@ def add(view: NodeView) -> NodeIndex:
 
 @shader("ShaderNodeBsdfPrincipled")
 def principled(view: NodeView) -> NodeIndex:
-    """All layers but subsurface scattering."""
-    view.ignore(Subsurface_Weight=0.0, Thin_Wall=0.0)
+    """All its layers."""
+    view.ignore(Thin_Wall=0.0)
     anisotropy, rotation, tangent = _stretch(view, "Anisotropic", "Anisotropic Rotation", 0)
     emission, emission_strength = view.radiance("Emission Color", "Emission Strength")
     ior = view.varying_number("IOR")
@@ -251,11 +279,28 @@ def principled(view: NodeView) -> NodeIndex:
             anisotropic=anisotropy,
             anisotropic_rotation=rotation,
             tangent=tangent,
+            **_subsurface_layer(view),
             **_sheen_layer(view),
             **_coat_layer(view),
             **_thin_film(view),
         )
     )
+
+
+def _subsurface_layer(view: NodeView) -> dict[str, Any]:
+    """The Principled BSDF's subsurface scattering, none where it has no weight."""
+    weight = view.share("Subsurface Weight")
+    if weight == 0.0:
+        return {}
+    node: Any = view.node
+    return {
+        "subsurface_weight": weight,
+        "subsurface_radius": view.varying_light("Subsurface Radius"),
+        "subsurface_scale": view.varying_number("Subsurface Scale"),
+        "subsurface_ior": view.varying_number("Subsurface IOR", 1e-5),
+        "subsurface_anisotropy": view.varying_number("Subsurface Anisotropy", -1, 1),
+        "subsurface_model": _subsurface_model(view, node.subsurface_method),
+    }
 
 
 def _sheen_layer(view: NodeView) -> dict[str, Any]:
@@ -288,7 +333,6 @@ def _coat_layer(view: NodeView) -> dict[str, Any]:
 
 
 @shader(
-    "ShaderNodeSubsurfaceScattering",
     "ShaderNodeBsdfHair",
     "ShaderNodeBsdfHairPrincipled",
 )

@@ -28,12 +28,14 @@ void register_materials(py::module_& m) {
   bind_described<TranslucentShader>(m, "TranslucentShader", "Diffuse transmission.");
   bind_described<SheenShader>(m, "SheenShader", "Light that fibres scatter at grazing angles.");
   bind_described<ToonShader>(m, "ToonShader", "A spot of even brightness.");
+  bind_described<SubsurfaceShader>(m, "SubsurfaceShader",
+                                   "Light that goes about beneath the surface and leaves elsewhere.");
   bind_described<RefractionShader>(m, "RefractionShader", "Refraction without Fresnel reflection.");
   bind_described<GlassShader>(m, "GlassShader", "Fresnel reflection and refraction.");
   bind_described<TransparentShader>(m, "TransparentShader", "Light passes straight through, tinted.");
   bind_described<EmissionShader>(m, "EmissionShader", "A surface that shines.");
   bind_described<HoldoutShader>(m, "HoldoutShader", "A hole in the picture for what the camera sees.");
-  bind_described<PrincipledShader>(m, "PrincipledShader", "Blender's Principled BSDF but for subsurface scattering.");
+  bind_described<PrincipledShader>(m, "PrincipledShader", "Blender's Principled BSDF but for thin walls.");
   bind_described<VolumeShader>(m, "VolumeShader", "What fills a shape, by its coefficients.");
   bind_described<MixShader>(m, "MixShader", "A blend of two nodes; None is black and opaque.");
   bind_described<AddShader>(m, "AddShader", "The sum of two nodes; None is black and opaque.");

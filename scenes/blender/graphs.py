@@ -206,6 +206,58 @@ def cloth(scene: bpy.types.Scene) -> None:
 
 
 @family
+def wax_and_skin(scene: bpy.types.Scene) -> None:
+    """Subsurface scattering: a bumpy ball, a box under a coat, a thin leaf with light behind it."""
+    graph = Graph("Skin")
+    grain = graph.node("TexNoise", Vector=graph.coordinates("Object"), Scale=6.0, Detail=2.0)
+    bump = graph.node("Bump", Height=grain.outputs[0], Strength=0.4, Distance=0.1)
+    color = graph.ramp(grain.outputs[0], (0.3, (0.9, 0.5, 0.35)), (0.7, (0.6, 0.15, 0.1)))
+    skin = graph.node(
+        "BsdfPrincipled",
+        Base_Color=color,
+        Roughness=0.5,
+        Subsurface_Weight=0.8,
+        Subsurface_Scale=0.2,
+        Normal=bump.outputs[0],
+    )
+    corner(scene, graph.finish(skin))
+    wax = Graph("Wax")
+    cover(
+        "Box",
+        wax.finish(
+            wax.node(
+                "BsdfPrincipled",
+                {"subsurface_method": "RANDOM_WALK_SKIN"},
+                Base_Color=(0.8, 0.7, 0.3),
+                Subsurface_Weight=1.0,
+                Subsurface_Radius=(1.0, 0.7, 0.4),
+                Subsurface_Scale=0.3,
+                Coat_Weight=0.5,
+            )
+        ),
+    )
+    leaf = Graph("Leaf")
+    stage.box(
+        "Leaf",
+        (1.2, 0.05, 1.4),
+        (-0.3, -1.3, 0),
+        -10,
+        leaf.finish(
+            leaf.node(
+                "SubsurfaceScattering",
+                {"falloff": "RANDOM_WALK"},
+                Color=(0.3, 0.7, 0.2),
+                Radius=(0.4, 1.0, 0.3),
+                Anisotropy=0.4,
+                Scale=0.5,
+            )
+        ),
+    )
+    ceiling_lamp()
+    stage.lamp("POINT", "Bulb", (-0.4, -0.7, 1.2), (0, 0, 0), 15.0, shadow_soft_size=0.1)
+
+
+@family
 def frosted_glass(scene: bpy.types.Scene) -> None:
     """Glass with a roughness and an index that vary."""
     graph = Graph("Glass")

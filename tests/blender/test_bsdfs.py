@@ -33,6 +33,8 @@ pytestmark = [
 TINT, EDGE = (0.8, 0.4, 0.1), (0.9, 0.5, 0.7)
 DIFFUSE, GLOSSY = "ShaderNodeBsdfDiffuse", "ShaderNodeBsdfAnisotropic"
 METALLIC, GLASS = "ShaderNodeBsdfMetallic", "ShaderNodeBsdfGlass"
+SUBSURFACE = "ShaderNodeSubsurfaceScattering"
+WALK, SKIN = {"falloff": "RANDOM_WALK"}, {"falloff": "RANDOM_WALK_SKIN"}
 SHEEN, TOON, PRINCIPLED = "ShaderNodeBsdfSheen", "ShaderNodeBsdfToon", "ShaderNodeBsdfPrincipled"
 
 # name: the node, its properties, its inputs, and the share by which a quarter of the ball may differ.
@@ -176,6 +178,41 @@ BALLS: dict[str, tuple[str, dict[str, str], dict[str, Any], float]] = {
         {},
         {"Base_Color": TINT, "Metallic": 1.0, "Roughness": 0.2, "Thin_Film_Thickness": 300.0},
         0.03,
+    ),
+    "subsurface, wide": (SUBSURFACE, WALK, {"Color": TINT, "Scale": 0.7, "Roughness": 1.0}, 0.01),
+    "subsurface, narrow": (SUBSURFACE, WALK, {"Color": TINT, "Scale": 0.05, "IOR": 1.8}, 0.01),
+    "subsurface, forward": (
+        SUBSURFACE,
+        WALK,
+        {"Color": TINT, "Scale": 0.5, "Anisotropy": 0.7},
+        0.01,
+    ),
+    "subsurface, bright": (SUBSURFACE, WALK, {"Color": (0.97, 0.9, 0.8), "Scale": 0.2}, 0.01),
+    "subsurface, one colour": (SUBSURFACE, WALK, {"Color": TINT, "Radius": (1, 0, 0)}, 0.01),
+    "subsurface, skin": (SUBSURFACE, SKIN, {"Color": TINT, "Scale": 0.3}, 0.01),
+    "principled, subsurface": (
+        PRINCIPLED,
+        {"subsurface_method": "RANDOM_WALK"},
+        {
+            "Base_Color": TINT,
+            "Subsurface_Weight": 0.7,
+            "Subsurface_Scale": 0.5,
+            "Roughness": 0.3,
+            "Specular_IOR_Level": 0.8,
+        },
+        0.01,
+    ),
+    "principled, skin": (
+        PRINCIPLED,
+        {"subsurface_method": "RANDOM_WALK_SKIN"},
+        {
+            "Base_Color": TINT,
+            "Subsurface_Weight": 1.0,
+            "Subsurface_Scale": 0.2,
+            "Subsurface_IOR": 1.6,
+            "Subsurface_Anisotropy": 0.3,
+        },
+        0.01,
     ),
 }
 

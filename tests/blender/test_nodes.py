@@ -487,12 +487,64 @@ def test_chain_of_reroutes() -> None:
     assert only_node(diffuse_with(link)).color == COLOR
 
 
+# ---- subsurface scattering ---------------------------------------------------------------------
+
+WALK = "van_de_hulst" if bpy.app.version >= (5, 2) else "chiang"
+
+
+@pytest.mark.parametrize(
+    ("method", "model", "warning"),
+    [
+        ("RANDOM_WALK", WALK, None),
+        ("RANDOM_WALK_SKIN", "skin", None),
+        ("BURLEY", "chiang", "Christensen-Burley is drawn as Random Walk"),
+    ],
+)
+def test_subsurface_scattering(method: str, model: str, warning: str | None) -> None:
+    material = new_material(
+        "ShaderNodeSubsurfaceScattering",
+        Color=COLOR,
+        Radius=(0.5, 0.2, 0.1),
+        Scale=0.3,
+        IOR=1.3,
+        Roughness=0.4,
+        Anisotropy=0.2,
+    )
+    bsdf: Any = next(n for n in material.node_tree.nodes if "Subsurface" in n.bl_idname)
+    bsdf.falloff = method
+    node = only_node(material, *([f'node "{bsdf.name}": {warning}'] if warning else []))
+    assert isinstance(node, basicrt.SubsurfaceShader)
+    assert (node.color, node.model) == (pytest.approx(COLOR), model)
+    assert node.radius == pytest.approx((0.5, 0.2, 0.1))
+    assert (node.scale, node.ior, node.alpha, node.anisotropy) == pytest.approx(
+        (0.3, 1.3, 0.4, 0.2)
+    )
+
+
+def test_principled_subsurface_scattering() -> None:
+    material = new_material(
+        "ShaderNodeBsdfPrincipled",
+        Base_Color=COLOR,
+        Subsurface_Weight=0.5,
+        Subsurface_Radius=(0.5, 0.2, 0.1),
+        Subsurface_Scale=0.3,
+        Subsurface_Anisotropy=0.2,
+    )
+    bsdf: Any = next(n for n in material.node_tree.nodes if "Principled" in n.bl_idname)
+    bsdf.subsurface_method = "RANDOM_WALK_SKIN"
+    bsdf.inputs["Subsurface IOR"].default_value = 1.6
+    node = only_node(material)
+    assert node.subsurface_model == "skin"
+    assert node.subsurface_radius == pytest.approx((0.5, 0.2, 0.1))
+    assert (
+        node.subsurface_weight,
+        node.subsurface_scale,
+        node.subsurface_ior,
+        node.subsurface_anisotropy,
+    ) == pytest.approx((0.5, 0.3, 1.6, 0.2))
+
+
 # ---- what is not supported ---------------------------------------------------------------------
-
-
-def test_subsurface_scattering_is_reported() -> None:
-    material = new_material("ShaderNodeBsdfPrincipled", Subsurface_Weight=0.5)
-    only_node(material, 'node "Principled BSDF": Subsurface Weight is not supported and left out')
 
 
 def test_a_normal_that_cannot_be_had_is_reported() -> None:
@@ -514,7 +566,6 @@ def test_displacement_by_vectors_is_reported() -> None:
 @pytest.mark.parametrize(
     ("bl_idname", "ours"),
     [
-        ("ShaderNodeSubsurfaceScattering", basicrt.DiffuseShader),
         ("ShaderNodeBsdfHair", basicrt.DiffuseShader),
         ("ShaderNodeBsdfRayPortal", basicrt.TransparentShader),
     ],
@@ -538,7 +589,7 @@ def test_unknown_shader_is_grey() -> None:
 def test_warnings_come_once_for_each_item() -> None:
     report = Report()
     for _ in range(2):
-        material = new_material("ShaderNodeSubsurfaceScattering", name="Wax")
+        material = new_material("ShaderNodeBsdfHair", name="Wax")
         translate_surface(material, report, Textures(basicrt.Scene()))
         translate_surface(material, report, Textures(basicrt.Scene()))
     assert len(report.warnings) == 2, "one for each of the two materials"

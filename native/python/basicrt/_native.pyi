@@ -80,6 +80,7 @@ __all__: list[str] = [
     "SingleScatteringSky",
     "Sphere",
     "SpotLight",
+    "SubsurfaceShader",
     "SunLight",
     "SurfaceOperation",
     "TableOperation",
@@ -2966,6 +2967,106 @@ class ToonShader:
     @smooth.setter
     def smooth(self, value: float | TextureRef | OperationRef) -> None: ...
 
+class SubsurfaceShader:
+    """
+    Light that goes about beneath the surface and leaves elsewhere.
+
+    color: of the light that comes back from a thick body; in [0, 1]
+    radius: how far light of each colour goes, metres times the scale; at least 0
+    scale: multiplies the radius; at least 0
+    ior: refractive index by which light enters; above 0
+    alpha: of the microfacets by which light enters; in [0, 1]
+    anisotropy: above 0 light is scattered forwards, below 0 backwards; in [-1, 1]
+    model: what the radius means: chiang, as of Blender's Random Walk before 5.2, skin, or van_de_hulst, as of the one since
+    normal: in world space, on the viewer's side; zero is the surface's own
+    """
+    def __init__(
+        self,
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        radius: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 0.2, 0.1),
+        scale: float | TextureRef | OperationRef = 0.05,
+        ior: float | TextureRef | OperationRef = 1.4,
+        alpha: float | TextureRef | OperationRef = 1.0,
+        anisotropy: float | TextureRef | OperationRef = 0.0,
+        model: str = "chiang",
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def alpha(self) -> float | TextureRef | OperationRef:
+        """
+        of the microfacets by which light enters; in [0, 1]
+        """
+    @alpha.setter
+    def alpha(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def anisotropy(self) -> float | TextureRef | OperationRef:
+        """
+        above 0 light is scattered forwards, below 0 backwards; in [-1, 1]
+        """
+    @anisotropy.setter
+    def anisotropy(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        of the light that comes back from a thick body; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def ior(self) -> float | TextureRef | OperationRef:
+        """
+        refractive index by which light enters; above 0
+        """
+    @ior.setter
+    def ior(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def model(self) -> str:
+        """
+        what the radius means: chiang, as of Blender's Random Walk before 5.2, skin, or van_de_hulst, as of the one since
+        """
+    @model.setter
+    def model(self, value: str) -> None: ...
+    @property
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def radius(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        how far light of each colour goes, metres times the scale; at least 0
+        """
+    @radius.setter
+    def radius(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def scale(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the radius; at least 0
+        """
+    @scale.setter
+    def scale(self, value: float | TextureRef | OperationRef) -> None: ...
+
 class RefractionShader:
     """
     Refraction without Fresnel reflection.
@@ -3221,7 +3322,7 @@ class HoldoutShader:
 
 class PrincipledShader:
     """
-    Blender's Principled BSDF but for subsurface scattering.
+    Blender's Principled BSDF but for thin walls.
 
     base_color: reflectance of diffuse and metal, tint of glass; in [0, 1]
     metallic: 0 a dielectric, 1 a metal; in [0, 1]
@@ -3249,6 +3350,12 @@ class PrincipledShader:
     coat_normal: in world space, on the viewer's side; zero is the surface's own
     thin_film_thickness: of a thin film on it, nanometres; 0 is none; at least 0
     thin_film_ior: refractive index of the film; above 0
+    subsurface_weight: how much of the diffuse light goes about beneath the surface; in [0, 1]
+    subsurface_radius: how far light of each colour goes, metres times the scale; at least 0
+    subsurface_scale: multiplies the radius; at least 0
+    subsurface_ior: skin: refractive index by which light enters; other models have the surface's; above 0
+    subsurface_anisotropy: above 0 light is scattered forwards, below 0 backwards; in [-1, 1]
+    subsurface_model: what the radius means: chiang, as of Blender's Random Walk before 5.2, skin, or van_de_hulst, as of the one since
     """
     def __init__(
         self,
@@ -3299,6 +3406,15 @@ class PrincipledShader:
         | OperationRef = (0.0, 0.0, 0.0),
         thin_film_thickness: float | TextureRef | OperationRef = 0.0,
         thin_film_ior: float | TextureRef | OperationRef = 1.33,
+        subsurface_weight: float | TextureRef | OperationRef = 0.0,
+        subsurface_radius: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 0.2, 0.1),
+        subsurface_scale: float | TextureRef | OperationRef = 0.05,
+        subsurface_ior: float | TextureRef | OperationRef = 1.4,
+        subsurface_anisotropy: float | TextureRef | OperationRef = 0.0,
+        subsurface_model: str = "chiang",
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -3476,6 +3592,51 @@ class PrincipledShader:
         self,
         value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
+    @property
+    def subsurface_anisotropy(self) -> float | TextureRef | OperationRef:
+        """
+        above 0 light is scattered forwards, below 0 backwards; in [-1, 1]
+        """
+    @subsurface_anisotropy.setter
+    def subsurface_anisotropy(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def subsurface_ior(self) -> float | TextureRef | OperationRef:
+        """
+        skin: refractive index by which light enters; other models have the surface's; above 0
+        """
+    @subsurface_ior.setter
+    def subsurface_ior(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def subsurface_model(self) -> str:
+        """
+        what the radius means: chiang, as of Blender's Random Walk before 5.2, skin, or van_de_hulst, as of the one since
+        """
+    @subsurface_model.setter
+    def subsurface_model(self, value: str) -> None: ...
+    @property
+    def subsurface_radius(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        how far light of each colour goes, metres times the scale; at least 0
+        """
+    @subsurface_radius.setter
+    def subsurface_radius(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def subsurface_scale(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the radius; at least 0
+        """
+    @subsurface_scale.setter
+    def subsurface_scale(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def subsurface_weight(self) -> float | TextureRef | OperationRef:
+        """
+        how much of the diffuse light goes about beneath the surface; in [0, 1]
+        """
+    @subsurface_weight.setter
+    def subsurface_weight(self, value: float | TextureRef | OperationRef) -> None: ...
     @property
     def tangent(self) -> str:
         """
@@ -3686,7 +3847,8 @@ class Material:
         | TranslucentShader
         | MetallicShader
         | SheenShader
-        | ToonShader,
+        | ToonShader
+        | SubsurfaceShader,
     ) -> int:
         """
         Appends a node and returns its index.
@@ -3748,6 +3910,7 @@ class Material:
         | MetallicShader
         | SheenShader
         | ToonShader
+        | SubsurfaceShader
     ]:
         """
         Copies of the nodes.

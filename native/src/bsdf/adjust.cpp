@@ -31,7 +31,7 @@ template <class OneLobe>
 constexpr bool is_wide =
     std::is_same_v<OneLobe, Lambert> || std::is_same_v<OneLobe, OrenNayar> || std::is_same_v<OneLobe, Translucent> ||
     std::is_same_v<OneLobe, Sheen> || std::is_same_v<OneLobe, Velvet> || std::is_same_v<OneLobe, DiffuseToon> ||
-    std::is_same_v<OneLobe, Transparent>;
+    std::is_same_v<OneLobe, Transparent> || std::is_same_v<OneLobe, Subsurface>;
 
 }  // namespace
 

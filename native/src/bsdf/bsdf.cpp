@@ -77,6 +77,13 @@ BsdfValue Bsdf::eval_kinds(Vec3f wo, Vec3f wi, std::uint32_t kinds) const {
   return sum;
 }
 
+Vec3f Bsdf::subsurface_normal() const {
+  Vec3f sum(0.0f);
+  for (const WeightedLobe& weighted : lobes_.used())
+    if (std::holds_alternative<Subsurface>(weighted.lobe)) sum += frame_of(weighted).normal * average(weighted.weight);
+  return length_squared(sum) > 0 ? normalize(sum) : smooth_normal_;
+}
+
 std::optional<BsdfSample> Bsdf::sample(Vec3f wo, float choice, Vec2f u) const {
   const std::span<const WeightedLobe> lobes = lobes_.used();
   if (lobes.empty()) return std::nullopt;
@@ -101,6 +108,10 @@ std::optional<BsdfSample> Bsdf::sample(Vec3f wo, float choice, Vec2f u) const {
 
   BsdfSample sample{wi,         weighted.weight * lobe->weight * shadowing,        lobe->pdf, lobe->is_delta,
                     lobe->kind, std::holds_alternative<Translucent>(weighted.lobe)};
+  if (lobe->kind == ScatterKind::subsurface) {
+    sample.subsurface = std::get_if<Subsurface>(&weighted.lobe);
+    sample.normal = frame.normal * side.sign;
+  }
   if (lobe->is_delta) {
     sample.weight *= 1 / probability;
     sample.pdf = probability;

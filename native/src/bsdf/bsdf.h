@@ -33,6 +33,7 @@ namespace basicrt {
     case ScatterKind::volume:
       return ray_volume;
     case ScatterKind::transparent:
+    case ScatterKind::subsurface:
       break;
   }
   return 0;
@@ -45,6 +46,9 @@ struct BsdfSample {
   bool is_delta = false;
   ScatterKind kind = ScatterKind::diffuse;
   bool is_translucent = false;  // transmitted and spread evenly
+  // Of kind subsurface: the lobe, which is the Bsdf's, and the normal of the surface as it sees it, on wo's side.
+  const Subsurface* subsurface = nullptr;
+  Vec3f normal{};
 };
 
 struct BsdfValue {
@@ -112,6 +116,11 @@ class Bsdf {
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
   // A better one, of what is scattered in one way: see pass_albedo.cpp.
   [[nodiscard]] Color albedo(Vec3f wo, ScatterKind kind) const;
+
+  // Of subsurface lobes: their mean where they have normals of their own, else the surface's own.
+  [[nodiscard]] Vec3f subsurface_normal() const;
+  // Whether bumps have turned some lobe.
+  [[nodiscard]] bool is_turned() const { return is_turned_; }
 
   // The normal of the lobes that are added from now on.
   void use_normal(Vec3f normal);

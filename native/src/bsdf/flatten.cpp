@@ -16,6 +16,12 @@ void flatten(const TranslucentShader& node, const Target& target, float weight) 
   target.shading.bsdf.add(Translucent{}, node.color.constant * weight);
 }
 
+void flatten(const SubsurfaceShader& node, const Target& target, float weight) {
+  const Color color = node.color.constant;
+  const Subsurface lobe(node.model, color, node.radius.constant * node.scale, node.ior, node.alpha, node.anisotropy);
+  add_subsurface(target, lobe, color * weight);
+}
+
 // Blender's Glossy node is stretched in a way of its own.
 Microfacets stretch_glossy(const GlossyShader& node, const Target& target, Microfacets microfacets) {
   const float length = 1 - std::min(std::abs(node.anisotropy), 0.99f);

@@ -96,6 +96,15 @@ inline void add_diffuse(const Target& target, float roughness, Color color, Colo
     target.shading.bsdf.add(OrenNayar(clamp_to_unit(color), roughness, target.cos_theta()), weight);
 }
 
+// The weight holds the colour. Colours that go next to nowhere beneath the surface are reflected diffusely.
+inline void add_subsurface(const Target& target, const Subsurface& lobe, Color weight) {
+  Color stays(0.0f), wanders = weight;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (lobe.radius()[i] < Subsurface::least_radius) std::swap(stays[i], wanders[i]);
+  target.shading.bsdf.add(Lambert{}, stays);
+  target.shading.bsdf.add(lobe, wanders);
+}
+
 // Glass of which the reflection at normal incidence is tinted, or which has a film on it.
 // Light that bounces between facets is taken to meet `bounced`.
 inline void add_film_glass(const Target& target, const FilmDielectric& lobe, float roughness,

@@ -23,7 +23,8 @@
 namespace basicrt {
 
 // How a path was scattered: bounce limits and ray visibility go by it.
-enum class ScatterKind : std::uint8_t { diffuse, glossy, transmission, transparent, volume };
+// `subsurface` is no scattering yet: the light goes on beneath the surface, and is scattered diffusely where it leaves.
+enum class ScatterKind : std::uint8_t { diffuse, glossy, transmission, transparent, volume, subsurface };
 
 struct LobeValue {
   Color value{0.0f};  // f * |cos|

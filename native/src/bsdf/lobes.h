@@ -11,6 +11,7 @@
 #include "bsdf/microfacet_reflection.h"
 #include "bsdf/oren_nayar.h"
 #include "bsdf/sheen.h"
+#include "bsdf/subsurface.h"
 #include "bsdf/thin_film.h"
 #include "bsdf/toon.h"
 #include "bsdf/translucent.h"
@@ -39,7 +40,8 @@ using Lobe = std::variant<Lambert,                                       //
                           MicrofacetReflection<TintedInterfaceFresnel>,  // Principled's tinted reflection
                           MicrofacetReflection<FilmInterfaceFresnel>,    //
                           MicrofacetReflection<FilmConductorFresnel>,    //
-                          FilmDielectric>;
+                          FilmDielectric,                                //
+                          Subsurface>;
 
 // All sixteen of a Bsdf's are copied with it: a lobe has no more room than the first of them needed.
 static_assert(sizeof(Lobe) <= 40);

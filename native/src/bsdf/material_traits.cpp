@@ -120,7 +120,8 @@ int count_lobes(const PrincipledShader& node) {
   const bool is_dielectric = may_be(node.metallic, is_part),
              is_opaque = is_dielectric && may_be(node.transmission, is_part);
   return may_be(node.alpha, is_part) + may_be(node.metallic, is_some) + may_be(node.sheen_weight, is_some) +
-         may_be(node.coat_weight, is_some) + (is_dielectric && may_be(node.transmission, is_some)) + 2 * is_opaque;
+         may_be(node.coat_weight, is_some) + (is_dielectric && may_be(node.transmission, is_some)) + 2 * is_opaque +
+         2 * (is_opaque && may_be(node.subsurface_weight, is_some));
 }
 
 }  // namespace
@@ -132,7 +133,8 @@ int lobe_count(const Material& material) {
   const auto count_of = [&](NodeIndex index) { return index < counts.size() ? counts[index] : 1; };
   const Overloaded count{[&](const MixShader& node) { return count_of(node.first) + count_of(node.second); },
                          [&](const AddShader& node) { return count_of(node.first) + count_of(node.second); },
-                         [](const PrincipledShader& node) { return count_lobes(node); }, [](const auto&) { return 1; }};
+                         [](const PrincipledShader& node) { return count_lobes(node); },
+                         [](const SubsurfaceShader&) { return 2; }, [](const auto&) { return 1; }};
   for (const ShaderNode& node : material.nodes) counts.push_back(std::min(std::visit(count, node), many));
   return std::max(count_of(material.surface), count_of(material.volume));
 }

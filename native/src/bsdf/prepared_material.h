@@ -20,7 +20,14 @@ struct PreparedMaterial {
   PreparedMaterial(Material the_material, const Table<Texture>& textures);
 };
 
+// `context` is called for a ShadingContext where the material asks for more than the point.
+template <class ContextFunction>
 [[nodiscard]] SurfaceShading shade(const PreparedMaterial& prepared, const Table<Texture>& textures,
-                                   const SurfacePoint& point, Vec3f wo, const ShadingContext& context = {});
+                                   const SurfacePoint& point, Vec3f wo, ContextFunction&& context) {
+  const std::optional<SurfaceShading>& uniform = dot(point.geometric_normal, wo) < 0 ? prepared.back : prepared.front;
+  if (!uniform) return shade(prepared.material, textures, point, wo, context());
+  return {Bsdf(make_frame(point.shading_normal), point.geometric_normal, uniform->bsdf), uniform->emission,
+          uniform->holdout};
+}
 
 }  // namespace basicrt

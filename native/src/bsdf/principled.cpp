@@ -100,8 +100,7 @@ class Principled {
   void add_reflection() {
     if (is_black(weight_)) return;
     const Color tint = node_.specular_tint.constant;
-    const float reflectance = reflectance_from_ior(node_.ior) * 2 * node_.specular_ior_level;
-    const float ior = node_.specular_ior_level == 0.5f ? node_.ior.constant : ior_from_reflectance(reflectance);
+    const float reflectance = interface_reflectance(), ior = interface_ior();
     const Microfacets microfacets = make_facets();
     if (film().is_none() && tint == Color(1.0f)) {
       add_plain_reflection(microfacets, ior);
@@ -127,6 +126,17 @@ class Principled {
     weight_ *= remainder_below(albedo);
   }
 
+  void add_subsurface_layer() {
+    if (is_black(weight_) || !(node_.subsurface_weight > 0)) return;
+    const Color base = node_.base_color.constant;
+    const bool is_skin = node_.subsurface_model == SubsurfaceModel::skin;
+    const Subsurface lobe(node_.subsurface_model, base, node_.subsurface_radius.constant * node_.subsurface_scale,
+                          is_skin ? node_.subsurface_ior.constant : interface_ior(), node_.roughness * node_.roughness,
+                          node_.subsurface_anisotropy);
+    add_subsurface(target_, lobe, base * (weight_ * node_.subsurface_weight));
+    weight_ *= 1 - node_.subsurface_weight;
+  }
+
   void add_diffuse_layer() {
     if (is_black(weight_)) return;
     const Color base = node_.base_color.constant;
@@ -134,6 +144,14 @@ class Principled {
   }
 
  private:
+  // Of the dielectric, by the level of its reflection: head on, and the index that stands for it.
+  [[nodiscard]] float interface_reflectance() const {
+    return reflectance_from_ior(node_.ior) * 2 * node_.specular_ior_level;
+  }
+  [[nodiscard]] float interface_ior() const {
+    return node_.specular_ior_level == 0.5f ? node_.ior.constant : ior_from_reflectance(interface_reflectance());
+  }
+
   [[nodiscard]] ThinFilm film() const { return {node_.thin_film_thickness, node_.thin_film_ior}; }
 
   [[nodiscard]] Microfacets make_facets() const {
@@ -174,6 +192,7 @@ void flatten(const PrincipledShader& node, const Target& target, float weight) {
   layers.add_metal_layer();
   layers.add_glass();
   layers.add_reflection();
+  layers.add_subsurface_layer();
   layers.add_diffuse_layer();
 }
 

@@ -88,8 +88,10 @@ class SurfacePoints {
           .ray_kinds = ray_kinds};
 }
 
-[[nodiscard]] inline SurfaceShading shade_at(const PreparedScene& scene, const SurfacePoint& point, Vec3f wo,
-                                             const ShadingContext& context) {
+// `context` is called where the material asks for it.
+template <class ContextFunction>
+[[nodiscard]] SurfaceShading shade_at(const PreparedScene& scene, const SurfacePoint& point, Vec3f wo,
+                                      ContextFunction&& context) {
   return shade(scene.material_of(point), scene.textures, point, wo, context);
 }
 

@@ -47,15 +47,15 @@ void IntersectionTest::shade(std::span<PixelSample> samples, bool is_camera_ray)
     if (is_camera_ray) note_first_hit(path.sample, point, sample);
 
     const Vec3f wo = -ray.direction;
-    const SurfaceShading shading =
-        shade_at(scene_, point, wo, shading_context(scene_, point, is_camera_ray ? ray_camera : ray_all));
+    const SurfaceShading shading = shade_at(
+        scene_, point, wo, [&] { return shading_context(scene_, point, is_camera_ray ? ray_camera : ray_all); });
     if (!shading.bsdf.has_only_deltas()) {
       gather_light(path, ray, point, to_light_[i % SurfacePoints::at_once], shading.bsdf);
       continue;
     }
     const float choice = path.sampler.next_1d();
     const std::optional<BsdfSample> scattered = shading.bsdf.sample(wo, choice, path.sampler.next_2d());
-    if (!scattered) continue;
+    if (!scattered || scattered->kind == ScatterKind::subsurface) continue;
     path.throughput *= scattered->weight;
     rays_[kept] = spawn_ray(point, scattered->wi, ray_transmission, ray.time);
     paths_[kept++] = path;

@@ -90,9 +90,8 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     }
     if (path.is_camera_ray && !sample.has_hit) note_first_hit(path.sample, point, sample);
 
-    const ShadingContext context = context_of(path, ray, point);
-    SurfaceShading shading = shade_at(scene_, point, -ray.direction, context);
-    if (path.shows_film) cut_out(path, point, -ray.direction, context, shading, sample);
+    SurfaceShading shading = shade_at(scene_, point, -ray.direction, [&] { return context_of(path, ray, point); });
+    if (path.shows_film) cut_out(path, ray, point, shading, sample);
     if (softens_caustics_) soften_caustics(scene_.settings, ray.kinds == ray_diffuse, path.least_pdf, shading.bsdf);
     if (path.is_camera_ray && scene_.instances[point.instance].is_shadow_catcher) {
       pass_catcher(path, ray, hit, point, shading.bsdf, sample);
@@ -114,6 +113,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
   rays_.insert(rays_.end(), caught_rays_.begin(), caught_rays_.end());
   caught_paths_.clear();
   caught_rays_.clear();
+  leave_bodies(samples);
 }
 
 ShadingContext PathIntegrator::context_of(const Path& path, const Ray& ray, const SurfacePoint& point) const {
@@ -234,11 +234,11 @@ void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const Sur
 }
 
 // Holdouts are holes, whether or not the film is transparent elsewhere.
-void PathIntegrator::cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, const ShadingContext& context,
-                             SurfaceShading& shading, PixelSample& sample) const {
+void PathIntegrator::cut_out(const Path& path, const Ray& ray, const SurfacePoint& point, SurfaceShading& shading,
+                             PixelSample& sample) const {
   Color hole(shading.holdout);
   if (scene_.instances[point.instance].is_holdout) {
-    hole = Color(1.0f) - transparency_at(scene_, point, wo, context);
+    hole = Color(1.0f) - transparency_at(scene_, point, -ray.direction, context_of(path, ray, point));
     shading.emission = Color(0.0f);
     shading.bsdf.remove_opaque();
   }
@@ -313,7 +313,44 @@ void PathIntegrator::pass_catcher(Path& path, Ray& ray, const Hit& hit, const Su
   continue_behind(ray, hit, point);
 }
 
-// Sends the path on in a sampled direction. False where it ends.
+// Light that is to go about beneath the surface: leave_bodies() takes it from there.
+void PathIntegrator::enter_body(const Path& path, const Ray& ray, const SurfacePoint& point, const BsdfSample& entering,
+                                bool is_turned) {
+  walks_.emplace_back(*entering.subsurface, point, entering.normal, entering.wi, ray.time, path.throughput,
+                      path.sampler);
+  walking_paths_.push_back({path, is_turned});
+}
+
+// Where light comes out of a body it is lit and scattered as by a white diffuse surface.
+void PathIntegrator::leave_bodies(std::span<PixelSample> samples) {
+  if (walks_.empty()) return;
+  walkers_.run(scene_, walks_);
+  for (std::size_t i = 0; i < walks_.size(); ++i) {
+    const SubsurfaceWalk& walk = walks_[i];
+    if (walk.state() != SubsurfaceWalk::State::out) continue;
+    Path& path = walking_paths_[i].path;
+    path.throughput = walk.throughput();
+    path.sampler = walk.sampler();
+    SurfacePoint point = surface_point_at(scene_, walk.ray(), walk.exit());
+    point.is_backfacing = !point.is_backfacing;
+    Ray ray = walk.ray();
+    ray.direction = -ray.direction;  // as if it had come from outside
+    Bsdf bsdf(make_frame(point.shading_normal), point.geometric_normal);
+    if (walking_paths_[i].is_turned)
+      bsdf.use_normal(shade_at(scene_, point, -ray.direction, [&] {
+                        return context_of(path, ray, point);
+                      }).bsdf.subsurface_normal());
+    bsdf.add(Lambert{}, Color(1.0f));
+    sample_lights(path, ray, point, bsdf, samples[path.sample]);
+    if (!scatter(path, ray, walk.exit(), point, bsdf)) continue;
+    paths_.push_back(path);
+    rays_.push_back(ray);
+  }
+  walks_.clear();
+  walking_paths_.clear();
+}
+
+// Sends the path on in a sampled direction. False where it ends, or goes on beneath the surface.
 bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) {
   const float choice = path.sampler.next_1d();
   const std::optional<BsdfSample> scattered = bsdf.sample(-ray.direction, choice, path.sampler.next_2d());
@@ -321,6 +358,10 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
   if (!scattered || (path.is_last && !is_passed)) return false;
   path.throughput *= scattered->weight * terminator_share(point, scattered->wi);
   if (is_black(path.throughput)) return false;
+  if (scattered->kind == ScatterKind::subsurface) {
+    enter_body(path, ray, point, *scattered, bsdf.is_turned());
+    return false;
+  }
   if (path.bounces.total == 0 && scattered->kind != ScatterKind::transparent && is_filed(path))
     recorder_.note_scattering(path.sample, bsdf, -ray.direction, *scattered);
   count_bounce(path, scattered->kind);

@@ -9,6 +9,7 @@
 #include "integrator/hit_shading.h"
 #include "integrator/integrator.h"
 #include "integrator/media_stack.h"
+#include "integrator/subsurface_walk.h"
 
 namespace basicrt {
 
@@ -43,6 +44,11 @@ class PathIntegrator final : public Integrator {
     bool shows_film = true;      // holes that it meets are holes in the picture
     float least_pdf = infinity;  // of all scatterings' densities
   };
+  // A path beneath a surface.
+  struct WalkingPath {
+    Path path;
+    bool is_turned;  // bumps may turn the surface that it leaves by, too
+  };
   // A light sample that is worth testing for shadow.
   struct Connection {
     std::uint32_t sample;
@@ -75,8 +81,8 @@ class PathIntegrator final : public Integrator {
   [[nodiscard]] bool is_filed(const Path& path) const;
   void add_connection(const Connection& connection, PixelSample& sample);
   void record_surface(const Path& path, const Ray& ray, const SurfacePoint& point, const SurfaceShading& shading);
-  void cut_out(const Path& path, const SurfacePoint& point, Vec3f wo, const ShadingContext& context,
-               SurfaceShading& shading, PixelSample& sample) const;
+  void cut_out(const Path& path, const Ray& ray, const SurfacePoint& point, SurfaceShading& shading,
+               PixelSample& sample) const;
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
   [[nodiscard]] float terminator_share(const SurfacePoint& point, Vec3f wi) const;
   [[nodiscard]] BsdfValue eval_towards(const LightSample& light, const SurfacePoint& point, Vec3f wo,
@@ -84,6 +90,9 @@ class PathIntegrator final : public Integrator {
   void pass_catcher(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf,
                     PixelSample& sample);
   [[nodiscard]] bool scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf);
+  void enter_body(const Path& path, const Ray& ray, const SurfacePoint& point, const BsdfSample& entering,
+                  bool is_turned);
+  void leave_bodies(std::span<PixelSample> samples);
   void count_bounce(Path& path, ScatterKind kind) const;
   [[nodiscard]] bool survives_roulette(Path& path) const;
   [[nodiscard]] bool survives_light_roulette(Path& path, Color& radiance) const;
@@ -108,6 +117,9 @@ class PathIntegrator final : public Integrator {
   std::vector<Ray> rays_;           // the next one of each path
   std::vector<Path> caught_paths_;  // those that leave shadow catchers
   std::vector<Ray> caught_rays_;
+  std::vector<SubsurfaceWalk> walks_;
+  std::vector<WalkingPath> walking_paths_;  // of the walks
+  SubsurfaceWalks walkers_;
   std::vector<Hit> hits_;
   SurfacePoints points_;  // of some of the hits at a time
   std::vector<Ray> shadow_rays_;

@@ -262,7 +262,40 @@ struct HoldoutShader {
   static constexpr auto fields() { return std::tuple{}; }
 };
 
-// Blender's Principled BSDF but for its subsurface scattering.
+// How the look of a body that light goes about in becomes the paths of that light, by a random walk. chiang: colour and
+// radius as Chiang, Kutz and Burley 2016 have them, the radius 4 pi mean free paths; skin: the same, but the radius is that of
+// diffusion, and half of the light enters diffusely; van_de_hulst: the radius is the mean free path.
+enum class SubsurfaceModel : std::uint8_t { chiang, skin, van_de_hulst };
+template <>
+inline constexpr std::array enum_names<SubsurfaceModel> =
+    std::to_array<std::string_view>({"chiang", "skin", "van_de_hulst"});
+inline constexpr std::string_view subsurface_model_doc =
+    "what the radius means: chiang, as of Blender's Random Walk before 5.2, skin, or van_de_hulst, as of the one since";
+inline constexpr std::string_view subsurface_radius_doc = "how far light of each colour goes, metres times the scale";
+
+// Light that enters the surface, goes about beneath it and leaves it diffusely elsewhere.
+struct SubsurfaceShader {
+  ColorInput color{Color(0.8f)};
+  ColorInput radius{Vec3f(1.0f, 0.2f, 0.1f)};
+  NumberInput scale = 0.05f, ior = 1.4f, alpha = 1.0f, anisotropy = 0.0f;
+  SubsurfaceModel model = SubsurfaceModel::chiang;
+  ColorInput normal{Vec3f(0.0f)};
+  static constexpr std::string_view kind = "subsurface";
+  static constexpr auto fields() {
+    using S = SubsurfaceShader;
+    return std::tuple{
+        field("color", &S::color, "of the light that comes back from a thick body", within(0, 1)),
+        field("radius", &S::radius, subsurface_radius_doc, at_least(0)),
+        field("scale", &S::scale, "multiplies the radius", at_least(0)),
+        field("ior", &S::ior, "refractive index by which light enters", above(0)),
+        field("alpha", &S::alpha, "of the microfacets by which light enters", within(0, 1)),
+        field("anisotropy", &S::anisotropy, "above 0 light is scattered forwards, below 0 backwards", within(-1, 1)),
+        field("model", &S::model, subsurface_model_doc),
+        field("normal", &S::normal, normal_doc)};
+  }
+};
+
+// Blender's Principled BSDF but for thin walls.
 struct PrincipledShader {
   ColorInput base_color;
   NumberInput metallic = 0.0f, roughness = 0.5f, ior = 1.5f, transmission = 0.0f, specular_ior_level = 0.5f;
@@ -280,6 +313,10 @@ struct PrincipledShader {
   ColorInput coat_tint{Color(1.0f)};
   NumberInput thin_film_thickness = 0.0f, thin_film_ior = 1.33f;
   ColorInput normal{Vec3f(0.0f)}, coat_normal{Vec3f(0.0f)};
+  NumberInput subsurface_weight = 0.0f;
+  ColorInput subsurface_radius{Vec3f(1.0f, 0.2f, 0.1f)};
+  NumberInput subsurface_scale = 0.05f, subsurface_ior = 1.4f, subsurface_anisotropy = 0.0f;
+  SubsurfaceModel subsurface_model = SubsurfaceModel::chiang;
 
   [[nodiscard]] bool is_stretched() const { return may_differ_from_zero(anisotropic); }
   static constexpr std::string_view kind = "principled";
@@ -315,7 +352,16 @@ struct PrincipledShader {
               within(0, 1)),
         field("coat_normal", &PrincipledShader::coat_normal, normal_doc),
         field("thin_film_thickness", &PrincipledShader::thin_film_thickness, film_thickness_doc, at_least(0)),
-        field("thin_film_ior", &PrincipledShader::thin_film_ior, "refractive index of the film", above(0))};
+        field("thin_film_ior", &PrincipledShader::thin_film_ior, "refractive index of the film", above(0)),
+        field("subsurface_weight", &PrincipledShader::subsurface_weight,
+              "how much of the diffuse light goes about beneath the surface", within(0, 1)),
+        field("subsurface_radius", &PrincipledShader::subsurface_radius, subsurface_radius_doc, at_least(0)),
+        field("subsurface_scale", &PrincipledShader::subsurface_scale, "multiplies the radius", at_least(0)),
+        field("subsurface_ior", &PrincipledShader::subsurface_ior,
+              "skin: refractive index by which light enters; other models have the surface's", above(0)),
+        field("subsurface_anisotropy", &PrincipledShader::subsurface_anisotropy,
+              "above 0 light is scattered forwards, below 0 backwards", within(-1, 1)),
+        field("subsurface_model", &PrincipledShader::subsurface_model, subsurface_model_doc)};
   }
 };
 
@@ -369,9 +415,10 @@ struct AddShader {
   }
 };
 
-using ShaderNode = std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader,
-                                TransparentShader, EmissionShader, HoldoutShader, PrincipledShader, VolumeShader,
-                                MixShader, AddShader, TranslucentShader, MetallicShader, SheenShader, ToonShader>;
+using ShaderNode =
+    std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader, TransparentShader,
+                 EmissionShader, HoldoutShader, PrincipledShader, VolumeShader, MixShader, AddShader, TranslucentShader,
+                 MetallicShader, SheenShader, ToonShader, SubsurfaceShader>;
 
 // A node refers only to nodes before it, so there is no cycle. A Mix or Add input of no_node is black and opaque,
 // as an empty socket is in Blender.

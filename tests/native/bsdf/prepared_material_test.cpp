@@ -64,7 +64,7 @@ TEST_F(PreparedMaterialTest, shades_as_the_material_does) {
       const SurfacePoint point = tilted_point(uv);
       for (const Vec3f wo : directions) {
         const SurfaceShading expected = shade(materials[i], textures_, point, wo);
-        const SurfaceShading shading = shade(prepared, textures_, point, wo);
+        const SurfaceShading shading = shade(prepared, textures_, point, wo, [] { return ShadingContext(); });
         EXPECT_EQ(shading.emission, expected.emission) << i;
         EXPECT_EQ(shading.bsdf.has_only_deltas(), expected.bsdf.has_only_deltas()) << i;
         EXPECT_EQ(shading.bsdf.albedo_estimate(), expected.bsdf.albedo_estimate()) << i;

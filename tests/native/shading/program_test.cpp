@@ -105,7 +105,7 @@ TEST(Program, shader_shows_the_operation_value) {
   const OperationIndex uv = material.add(Operation(SurfaceOperation{SurfaceValue::uv}));
   material.surface = material.add(ShaderNode(EmissionShader{.radiance = uv}));
   const PreparedMaterial prepared(material, no_textures);
-  EXPECT_EQ(shade(prepared, no_textures, point, {0, 0, 1}).emission, Color(0.25f, 0.75f, 0));
+  EXPECT_EQ(shade(prepared.material, no_textures, point, {0, 0, 1}).emission, Color(0.25f, 0.75f, 0));
   EXPECT_EQ(emitted_radiance(prepared.material, SurfaceSide::front), Color(0.0f));  // not sampled: found by rays
 }
 
@@ -117,7 +117,7 @@ TEST(Program, values_stay_in_the_range_of_the_input) {
   const OperationIndex position = material.add(Operation(SurfaceOperation{SurfaceValue::position}));
   material.surface = material.add(ShaderNode(EmissionShader{.radiance = position}));
   const PreparedMaterial prepared(material, no_textures);
-  EXPECT_EQ(shade(prepared, no_textures, point, {0, 0, 1}).emission, Color(0, 2, 0));
+  EXPECT_EQ(shade(prepared.material, no_textures, point, {0, 0, 1}).emission, Color(0, 2, 0));
 }
 
 TEST(Operations, math_gives_zero_where_there_is_no_value) {
