@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..nodes import MeshData, Part, Source
+from . import pointiness
 
 Floats = NDArray[np.float32]
 Integers = NDArray[np.int32]
@@ -77,6 +78,12 @@ def _convert_one(b_mesh: bpy.types.Mesh, triangles: Triangles, data: MeshData) -
         return _convert_tangents(b_mesh, triangles, data)
     if data.part == Part.ISLAND:
         return data.exported_name, "vertex", _island_numbers(triangles)
+    if data.part == Part.POINTINESS:
+        return (
+            data.exported_name,
+            "vertex",
+            np.repeat(pointiness.measure(b_mesh)[:, None], 3, axis=1),
+        )
     b_attribute = _find(b_mesh, data)
     if b_attribute is None or b_attribute.data_type not in _MEMBERS:
         return None

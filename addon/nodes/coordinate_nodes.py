@@ -172,6 +172,8 @@ def geometry(of: Operands, output: str) -> Value | None:
         return _radial_tangent(of, "Z")
     if output == "Random Per Island":
         return mesh_data(of, "number", MeshData(Source.ATTRIBUTE, "", Part.ISLAND))
+    if output == "Pointiness":
+        return mesh_data(of, "number", MeshData(Source.ATTRIBUTE, "", Part.POINTINESS))
     return _from_table(of, output, _GEOMETRY)
 
 

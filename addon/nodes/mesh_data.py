@@ -24,6 +24,7 @@ class Part(StrEnum):
     TANGENT = "tangent"  # of the UV map's first coordinate
     TANGENT_SIGN = "tangent_sign"  # -1 where the UV map is mirrored
     ISLAND = "island"  # a random number for each connected piece
+    POINTINESS = "pointiness"  # how far it sticks out there
 
 
 @dataclass(frozen=True, order=True)

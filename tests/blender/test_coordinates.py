@@ -87,6 +87,18 @@ def test_geometry_of_the_back_of_a_mirrored_object(name: str, tmp_path: Path) ->
     compare(tree, node.outputs[name], emission, tmp_path, scale=0.3)
 
 
+@pytest.mark.parametrize("is_split", [False, True])
+def test_pointiness(is_split: bool, tmp_path: Path) -> None:
+    tree, emission, made = ball()
+    place = made.data.vertices[21].co
+    made.data.vertices[21].co = place * 1.4  # a spike
+    if is_split:  # vertices at the same place count as one
+        modifier = made.modifiers.new("Split", "EDGE_SPLIT")
+        modifier.split_angle = 0.2
+    node = tree.nodes.new("ShaderNodeNewGeometry")
+    compare(tree, node.outputs["Pointiness"], emission, tmp_path)
+
+
 def test_islands_have_numbers_of_their_own(tmp_path: Path) -> None:
     tree, emission, made = ball()
     bpy.context.view_layer.objects.active = made
@@ -191,7 +203,6 @@ def test_hair_info_of_a_surface(tmp_path: Path) -> None:
 
 
 UNSUPPORTED = [
-    ("ShaderNodeNewGeometry", "Pointiness"),
     ("ShaderNodeAmbientOcclusion", "AO"),
     ("ShaderNodeBevel", "Normal"),
     ("ShaderNodeParticleInfo", "Age"),
