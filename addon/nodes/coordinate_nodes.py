@@ -12,11 +12,12 @@ import basicrt
 from .. import compat
 from .graph import Place, find_socket, trace
 from .mesh_data import MeshData, Part, Source
-from .operations import Operands, Value, operation
+from .operations import Operands, Value, as_vector, operation
 
 if TYPE_CHECKING:
     from .node_view import Translation
 
+_ENDLESS = 1e30  # metres
 _COORDINATES = {
     "Generated": "generated",
     "Normal": "object_normal",
@@ -207,6 +208,27 @@ def wireframe(of: Operands, _output: str) -> Value:
     """1 near the triangles' edges."""
     made = basicrt.WireframeOperation(size=of.number("Size"), in_pixels=of.node.use_pixel_size)
     return of.add("number", made)
+
+
+@operation("ShaderNodeAmbientOcclusion")
+def ambient_occlusion(of: Operands, output: str) -> Value:
+    """How open the surroundings are, and a colour that is multiplied by it."""
+    # A distance of 0 that nothing is linked to means any.
+    is_endless = not of.is_linked("Distance") and of.number("Distance") == 0.0
+    made = basicrt.AmbientOcclusionOperation(
+        distance=_ENDLESS if is_endless else of.number("Distance"),
+        normal=of.view.normal(),
+        samples=of.node.samples,
+        inside=of.node.inside,
+        only_local=of.node.only_local,
+    )
+    openness = of.add("number", made)
+    if output == "AO":
+        return openness
+    product = basicrt.VectorMathOperation(
+        operation="multiply", a=of.vector("Color"), b=as_vector(openness)
+    )
+    return of.add("color", product)
 
 
 @operation("ShaderNodeHairInfo")

@@ -99,6 +99,29 @@ def test_pointiness(is_split: bool, tmp_path: Path) -> None:
     compare(tree, node.outputs["Pointiness"], emission, tmp_path)
 
 
+@pytest.mark.parametrize("output", ["AO", "Color"])
+@pytest.mark.parametrize(
+    ("settings", "distance"),
+    [({}, 1.0), ({}, 0.0), ({"only_local": True}, 2.0), ({"inside": True}, 0.4)],
+)
+def test_ambient_occlusion(
+    settings: dict[str, bool], distance: float, output: str, tmp_path: Path
+) -> None:
+    tree, emission, made = ball()
+    made.location.z += 0.3
+    floor = add_plane(size=3)
+    floor.location = (0.2, 0.1, -0.5)
+    node: Any = tree.nodes.new("ShaderNodeAmbientOcclusion")
+    node.samples = 64
+    node.inputs["Distance"].default_value = distance
+    for name, value in settings.items():
+        setattr(node, name, value)
+    bpy.context.scene.basicrt.samples = bpy.context.scene.cycles.samples = 16
+    ours, theirs = pictures(tree, output_of(node, output), emission, tmp_path)
+    np.testing.assert_allclose(ours.mean(axis=(0, 1)), theirs.mean(axis=(0, 1)), rtol=0.01)
+    assert np.abs(ours - theirs).mean() < 0.03 * theirs.max()
+
+
 def test_islands_have_numbers_of_their_own(tmp_path: Path) -> None:
     tree, emission, made = ball()
     bpy.context.view_layer.objects.active = made
@@ -203,7 +226,6 @@ def test_hair_info_of_a_surface(tmp_path: Path) -> None:
 
 
 UNSUPPORTED = [
-    ("ShaderNodeAmbientOcclusion", "AO"),
     ("ShaderNodeBevel", "Normal"),
     ("ShaderNodeParticleInfo", "Age"),
     ("ShaderNodeLightFalloff", "Linear"),

@@ -14,6 +14,7 @@ left out or changed warns with SceneWarning.
 
 from ._native import (
     AddShader,
+    AmbientOcclusionOperation,
     AreaLight,
     AttributeOperation,
     BrickOperation,
@@ -111,6 +112,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "AddShader",
+    "AmbientOcclusionOperation",
     "AreaLight",
     "AttributeOperation",
     "BrickOperation",

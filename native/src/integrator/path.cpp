@@ -27,6 +27,7 @@ Ray up_to(Ray ray, const SurfacePoint& point) {
 PathIntegrator::PathIntegrator(const PreparedScene& scene)
     : Integrator(scene),
       scene_(scene),
+      probe_(scene),
       has_volumes_(scene.has_volumes),
       softens_caustics_(softens_caustics(scene.settings)) {}
 
@@ -121,6 +122,8 @@ ShadingContext PathIntegrator::context_of(const Path& path, const Ray& ray, cons
   context.footprint += scene_.pixel_spread * path.length;
   context.is_singular_ray = path.is_specular && !path.is_camera_ray;
   context.is_translucent_ray = path.is_translucent;
+  context.probe = &probe_;
+  context.random_bits = path.sampler.fingerprint();
   set_bounces(context, path.bounces);
   return context;
 }

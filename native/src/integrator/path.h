@@ -9,6 +9,7 @@
 #include "integrator/hit_shading.h"
 #include "integrator/integrator.h"
 #include "integrator/media_stack.h"
+#include "integrator/scene_probe.h"
 #include "integrator/subsurface_walk.h"
 
 namespace basicrt {
@@ -111,6 +112,7 @@ class PathIntegrator final : public Integrator {
   void connect_through_media(std::span<PixelSample> samples);
 
   const PreparedScene& scene_;
+  SceneProbe probe_;
   bool has_volumes_;
   bool softens_caustics_;
   std::vector<Path> paths_;

@@ -49,6 +49,11 @@ class Sampler {
     return sobol_2d(shuffled_sample(bits), high(bits), low(bits));
   }
 
+  // Bits that no number drawn shows, others for each path and after each number.
+  [[nodiscard]] std::uint64_t fingerprint() const {
+    return hash(key_ ^ 0x5851f42d4c957f2du, hash(sample_) + dimension_);
+  }
+
  private:
   static std::uint32_t high(std::uint64_t bits) { return static_cast<std::uint32_t>(bits >> 32); }
   static std::uint32_t low(std::uint64_t bits) { return static_cast<std::uint32_t>(bits); }

@@ -27,6 +27,15 @@ struct CameraWindow {
   bool is_perspective = true;
 };
 
+// What programs may ask of the whole scene, of which they know nothing else.
+class RayProbe {
+ public:
+  virtual ~RayProbe() = default;
+  // Whether a ray from the point meets anything within the distance: only of the point's own object where `is_local`.
+  [[nodiscard]] virtual bool is_occluded(const SurfacePoint& point, Vec3f direction, float distance,
+                                         bool is_local) const = 0;
+};
+
 // What surrounds a point that is shaded. All of it may be missing: then it counts as zero.
 struct ShadingContext {
   const Mesh* mesh = nullptr;  // none on a sphere
@@ -38,6 +47,8 @@ struct ShadingContext {
   int object_index = 0, material_index = 0;
   std::uint32_t ray_kinds = 0;                               // RayKind bits
   bool is_singular_ray = false, is_translucent_ray = false;  // it left a mirror or smooth glass; a translucent shader
+  const RayProbe* probe = nullptr;
+  std::uint64_t random_bits = 0;  // others each time
   int bounces = 0, diffuse_bounces = 0, glossy_bounces = 0, transmission_bounces = 0, transparent_bounces = 0;
 };
 

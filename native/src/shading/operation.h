@@ -8,6 +8,7 @@
 #include "shading/gabor_operation.h"
 #include "shading/math_operations.h"
 #include "shading/noise_operations.h"
+#include "shading/occlusion_operation.h"
 #include "shading/surface_operations.h"
 #include "shading/texture_operations.h"
 #include "shading/vector_operations.h"
@@ -22,6 +23,7 @@ using Operation =
                  MappingOperation, RotateOperation, TransformOperation, ChangeSpaceOperation, SurfaceOperation,
                  AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation,
                  BumpOperation, ImageOperation, CheckerOperation, GradientOperation, WaveOperation, MagicOperation,
-                 BrickOperation, NoiseOperation, WhiteNoiseOperation, VoronoiOperation, GaborOperation>;
+                 BrickOperation, NoiseOperation, WhiteNoiseOperation, VoronoiOperation, GaborOperation,
+                 AmbientOcclusionOperation>;
 
 }  // namespace basicrt

@@ -19,7 +19,6 @@ Vec3f normalized(Vec3f a) {
 }
 
 float side(const Evaluator& in) { return in.point.is_backfacing ? -1.0f : 1.0f; }
-Vec3f viewed_normal(const Evaluator& in) { return in.point.shading_normal * side(in); }
 
 Vec3f object_position(const Evaluator& in) {
   const Placement* placement = in.context.placement;
@@ -124,6 +123,8 @@ Vec3f from_uv_tangents(Vec3f encoded, const Evaluator& in) {
 }
 
 }  // namespace
+
+Vec3f viewed_normal(const Evaluator& in) { return in.point.shading_normal * side(in); }
 
 Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
   const SurfacePoint& point = in.point;

@@ -220,6 +220,8 @@ struct BumpOperation {
 
 [[nodiscard]] Vec3f eval(const SurfaceOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const AttributeOperation& node, const Evaluator& in);
+// Of the surface, on the viewer's side.
+[[nodiscard]] Vec3f viewed_normal(const Evaluator& in);
 [[nodiscard]] Vec3f eval(const FresnelOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const NormalMapOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const TangentOperation& node, const Evaluator& in);
