@@ -109,7 +109,7 @@ def test_ambient_occlusion(
 ) -> None:
     tree, emission, made = ball()
     made.location.z += 0.3
-    floor = add_plane(size=3)
+    floor = add_plane(size=3, material=new_material("ShaderNodeBsdfDiffuse", Color=(0, 0, 0)))
     floor.location = (0.2, 0.1, -0.5)
     node: Any = tree.nodes.new("ShaderNodeAmbientOcclusion")
     node.samples = 64
