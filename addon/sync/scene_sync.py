@@ -61,7 +61,8 @@ def export(
     shutter = motion.shutter(b_scene, b_view_layer)
     exported = Export()
     if shutter is None or frame_set is None:
-        _fill(exported, depsgraph, b_camera, report, None)
+        converted = camera.convert(b_camera, depsgraph.scene_eval.render, report)
+        _fill(exported, depsgraph, converted, report, None)
         return exported
     frame = b_scene.frame_current_final
     b_original: Any = b_camera.original
@@ -69,7 +70,9 @@ def export(
     try:
         if shutter.center != frame:
             set_frame(frame_set, shutter.center)
-        _fill(exported, depsgraph, b_original.evaluated_get(depsgraph), report, movement)
+        b_evaluated = b_original.evaluated_get(depsgraph)
+        converted = camera.convert(b_evaluated, depsgraph.scene_eval.render, report)
+        _fill(exported, depsgraph, converted, report, movement)
         movement.follow(depsgraph, b_original, frame_set)
     finally:
         set_frame(frame_set, frame)
@@ -79,7 +82,7 @@ def export(
 def _fill(
     exported: Export,
     depsgraph: bpy.types.Depsgraph,
-    b_camera: bpy.types.Object,
+    view_camera: camera.Camera,
     report: Report,
     movement: MotionExport | None,
 ) -> None:
@@ -88,7 +91,7 @@ def _fill(
     b_view_layer: Any = depsgraph.view_layer_eval
     scene = exported.scene
     settings.convert(b_scene, b_view_layer, scene.settings, report)
-    scene.camera = camera.convert(b_camera, b_scene.render, report)
+    scene.camera = view_camera
     textures = Textures(scene)
     b_world = compat.view_layer_world(b_scene, b_view_layer)
     scene.environment = world.convert(b_world, report, textures)
@@ -104,6 +107,33 @@ def _fill_space(
     if b_world is not None and volume is not None:
         exported.names["materials"].append(f'world "{b_world.name}"')
         exported.scene.world_volume = exported.scene.materials.append(volume)
+
+
+class SceneSync:
+    """A native scene that is kept like an evaluated one."""
+
+    def __init__(self, report: Report) -> None:
+        self._report = report
+        self._exported = Export()
+
+    @property
+    def scene(self) -> basicrt.Scene:
+        """As of the last update()."""
+        return self._exported.scene
+
+    def in_users_words(self, message: str) -> str:
+        """See Export."""
+        return self._exported.in_users_words(message)
+
+    def note(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Remember what Blender says has changed, for the next update()."""
+
+    def update(
+        self, depsgraph: bpy.types.Depsgraph, view_camera: camera.Camera, b_space: Any
+    ) -> None:
+        """Make the scene what Blender's is now."""
+        self._exported = Export()
+        _fill(self._exported, depsgraph, view_camera, self._report, None)
 
 
 class _InstanceExport:

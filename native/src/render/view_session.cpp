@@ -112,6 +112,7 @@ struct ViewSession::State {
 
   // The director's own.
   PreparedScene scene;
+  const Scene* described_by = nullptr;
   bool has_scene = false;
   std::optional<View> view;
   std::optional<Rendering> rendering;  // at full resolution
@@ -183,6 +184,8 @@ void ViewSession::State::prepare_scene(const Scene& next, std::unique_lock<std::
   lock.unlock();
   Report said;
   has_scene = false;
+  if (described_by != &next) scene = {};  // revisions of another scene mean nothing
+  described_by = &next;
   std::exception_ptr failure;
   try {
     scene = prepare(next, said, std::move(scene), {.threads = pool.thread_count(), .progress = progress.get()});

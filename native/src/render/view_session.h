@@ -45,8 +45,8 @@ class ViewSession {
   ViewSession(const ViewSession&) = delete;
   ViewSession& operator=(const ViewSession&) = delete;
 
-  // Shows this scene, the same object as before where there was one: what has not changed in it is not prepared again.
-  // It must stay as it is until is_preparing is false, and may only be called then.
+  // Shows this scene; where it is the same object as before, what has not changed in it is not prepared again. It must stay
+  // as it is until is_preparing is false, and this may only be called then.
   void set_scene(const Scene& scene);
   // Looks at the scene otherwise. Throws SceneError for a view that can't be rendered.
   void set_view(View view);
