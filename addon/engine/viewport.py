@@ -14,6 +14,7 @@ import basicrt
 from ..export import view
 from ..properties import settings_of
 from ..report import ExportError, Report, message_of, show_warnings
+from ..sync.instances import Filter
 from ..sync.scene_sync import SceneSync
 from .view_texture import ViewTexture
 
@@ -35,6 +36,7 @@ class Viewport:
         self._sync = SceneSync(self._report)
         self._texture = ViewTexture()
         self._shown: Any = None  # what the session was told to show
+        self._visible: Any = None  # what the viewport showed of the scene when it was read
         self._is_out_of_date = False  # something changed that was not read yet
         self._is_polling = False
         self._message = ""
@@ -53,6 +55,9 @@ class Viewport:
 
     def draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Show the newest picture, and look where Blender looks now."""
+        if _visible(_region(context)) != self._visible:
+            self._sync.rescan()
+            self._is_out_of_date = True
         if self._is_out_of_date:
             self._read_changes(context, depsgraph)
         self._look(context, depsgraph)
@@ -75,9 +80,10 @@ class Viewport:
             return
         self._is_out_of_date = False
         region = _region(context)
+        self._visible = _visible(region)
         camera = view.convert_camera(region, depsgraph, self._report)
-        self._sync.update(depsgraph, camera, region.b_space)
-        self._session.set_scene(self._sync.scene)
+        self._sync.update(depsgraph, camera, _filter(region))
+        self._session.set_scene(self._sync.exported.scene)
         show_warnings(self._report)
 
     def _look(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
@@ -102,10 +108,10 @@ class Viewport:
         try:
             status = self._session.status
         except basicrt.SceneError as error:
-            self._message = message_of(ExportError(self._sync.in_users_words(str(error))))
+            self._message = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
             status = None
         for warning in self._session.take_warnings():
-            self._report.add(self._sync.in_users_words(warning))
+            self._report.add(self._sync.exported.in_users_words(warning))
             show_warnings(self._report)
         if status is None or (status.is_done and status.samples == 0 and self._message):
             engine.update_stats("", self._message)
@@ -135,7 +141,7 @@ class Viewport:
             self._is_polling = False
             return None
         except basicrt.SceneError as error:
-            self._message = message_of(ExportError(self._sync.in_users_words(str(error))))
+            self._message = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
             engine.tag_redraw()
         is_done = status.is_done and not session.has_picture and not self._is_out_of_date
         self._is_polling = not is_done
@@ -144,3 +150,21 @@ class Viewport:
 
 def _region(context: Any) -> view.Region:
     return view.Region(context.region, context.space_data, context.region_data)
+
+
+def _filter(region: view.Region) -> Filter:
+    """What of the scene the viewport shows."""
+    return Filter(region.b_space, has_lights=region.b_space.shading.use_scene_lights_render)
+
+
+def _visible(region: view.Region) -> Any:
+    """All that decides on what the viewport hides."""
+    b_space = region.b_space
+    shading = b_space.shading
+    kinds = [name for name in dir(b_space) if name.startswith("show_object_viewport_")]
+    return (
+        b_space.local_view is not None,
+        b_space.use_local_collections,
+        shading.use_scene_lights_render,
+        [getattr(b_space, name) for name in kinds],
+    )
