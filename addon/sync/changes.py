@@ -73,6 +73,7 @@ def history() -> int:
     return _History.steps
 
 
+@bpy.app.handlers.persistent  # the next file wants it too
 def _count_step(*_args: Any) -> None:
     _History.steps += 1
 

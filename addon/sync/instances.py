@@ -92,6 +92,7 @@ class Instances:
         self._known: dict[Key, _Known | None] = {}  # None: it is none of ours, or has no faces
         self._lights: dict[Key, int] = {}  # in Scene.lights
         self._object_names: dict[int, str] = {}
+        self._instanced: set[int] = set()  # the numbers of objects that are placed by others, and of those
         # Of one update, by the numbers of an object and of what instances it, and by the mesh's key.
         self._slots: dict[tuple[int, int], list[int | None]] = {}
         self._asked: dict[tuple[int, int], frozenset[MeshData]] = {}
@@ -138,8 +139,8 @@ class Instances:
             if b_object is None or b_object.session_uid != number:
                 return False
             evaluated = b_object.evaluated_get(depsgraph)
-            # What is told apart by more than its own number is not only placed by itself.
-            if evaluated.is_instancer or (number, 0, ()) not in self._known:
+            is_alone = (number, 0, ()) in self._known and number not in self._instanced
+            if evaluated.is_instancer or not is_alone:
                 return False
             found.append(evaluated)
         for evaluated in found:
@@ -164,6 +165,7 @@ class Instances:
         """Go over everything, and convert what is new or changed."""
         before, self._known = self._known, {}
         self._object_names.clear()
+        self._instanced.clear()
         self._scene.lights.clear()
         self._lights.clear()
         kept: list[basicrt.Instance | None] = []  # None: as it was, at the same place
@@ -174,6 +176,8 @@ class Instances:
             b_object: Any = b_instance.object
             key = key_of(b_instance)
             self._object_names[key[0]] = b_object.original.name
+            if b_instance.is_instance:
+                self._instanced.update(key[:2])
             if b_object.type == "LIGHT":
                 self._known[key] = None
                 self._add_light(key, b_instance, shown)
