@@ -107,7 +107,10 @@ class Instances:
         self._slots.clear()
         self._asked.clear()
         self._visibility.clear()
-        self._shapes.forget(changes.shapes)
+        if changes.shapes:
+            may_lack = changes.is_selection
+            present = {uid(b_object) for b_object in depsgraph.objects} if may_lack else None
+            self._shapes.forget(changes.shapes, present)
 
     def forget(self) -> None:
         """Convert all of them again in the next scan; shapes and materials stay."""
@@ -293,10 +296,9 @@ class Instances:
             name = f'object "{b_object.name}"'
             self._shapes.add(key, self._new_shape(name, b_object, b_mesh, asked), name)
         b_parent = b_instance.parent if b_instance.is_instance else None
-        owners = [uid(b_object), *([uid(b_parent)] if b_parent is not None else [])]
-        if b_object.original.data is not None:
-            owners.append(uid(b_object.original.data))
-        return self._shapes.index(key, owners)
+        objects = [uid(b_object), *([uid(b_parent)] if b_parent is not None else [])]
+        b_data = b_object.original.data
+        return self._shapes.index(key, objects, [uid(b_data)] if b_data is not None else [])
 
     def _new_shape(
         self, name: str, b_object: Any, b_mesh: bpy.types.Mesh, asked: frozenset[MeshData]

@@ -18,11 +18,12 @@ ShapeKey = tuple[int, frozenset[MeshData]]
 @dataclass
 class _Shape:
     index: int | None  # in Scene.shapes; None where the mesh has no faces
-    owners: set[int]  # the numbers of what it changes with: objects and their data
+    objects: set[int]  # the numbers of those that have it, and of what instances them
+    data: set[int]  # the numbers of their data
 
 
 class Shapes:
-    """Converted meshes by their keys, which mean something as long as their owners don't change."""
+    """Converted meshes by their keys, which mean something as long as those that have them don't change."""
 
     def __init__(self, scene: basicrt.Scene, names: list[str]) -> None:
         self._scene = scene
@@ -34,10 +35,11 @@ class Shapes:
     def __contains__(self, key: ShapeKey) -> bool:
         return key in self._shapes
 
-    def index(self, key: ShapeKey, owners: Iterable[int]) -> int | None:
-        """Of a known shape, which from now on has these owners too."""
+    def index(self, key: ShapeKey, objects: Iterable[int], data: Iterable[int]) -> int | None:
+        """Of a known shape, which from now on these have too."""
         shape = self._shapes[key]
-        shape.owners.update(owners)
+        shape.objects.update(objects)
+        shape.data.update(data)
         return shape.index
 
     def add(self, key: ShapeKey, shape: basicrt.Mesh | None, name: str) -> None:
@@ -49,7 +51,7 @@ class Shapes:
         elif shape is not None:
             index = self._scene.shapes.append(shape)
             self._names.append(name)
-        self._shapes[key] = _Shape(index, set())
+        self._shapes[key] = _Shape(index, set(), set())
 
     def use(self, index: int) -> None:
         """One more instance has it."""
@@ -70,7 +72,12 @@ class Shapes:
             self._scene.shapes[index] = basicrt.Sphere()  # small, and never instanced
             self._free.append(index)
 
-    def forget(self, owners: set[int]) -> None:
-        """The shapes of these are others now: instances keep the old ones until they get new ones."""
-        kept = {key: one for key, one in self._shapes.items() if not one.owners & owners}
-        self._shapes = kept
+    def forget(self, changed: set[int], present: set[int] | None) -> None:
+        """The shapes of these are others now: instances keep the old ones until they get new ones.
+
+        So are those of objects that are no longer present, whose meshes' keys may be others' now.
+        """
+        for key, one in list(self._shapes.items()):
+            is_changed = not changed.isdisjoint(one.objects) or not changed.isdisjoint(one.data)
+            if is_changed or (present is not None and not one.objects <= present):
+                del self._shapes[key]
