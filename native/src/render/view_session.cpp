@@ -15,7 +15,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/parallel_for.h"
+#include "base/thread_priority.h"
 #include "base/worker_pool.h"
 #include "render/tile_order.h"
 #include "render/tile_render.h"
@@ -137,6 +137,7 @@ struct ViewSession::State {
 };
 
 void ViewSession::State::direct() {
+  lower_thread_priority();
   std::unique_lock lock(mutex);
   while (true) {
     const auto has_work = [&] { return is_over || next_scene != nullptr || next_view || can_refine(); };
@@ -254,6 +255,7 @@ bool ViewSession::State::render_round(Rendering& work, int samples_to, int sampl
   std::atomic<std::size_t> next_tile = 0;
   std::atomic<bool> is_finished = true;
   pool.for_each(work.workers.size(), [&](std::size_t lane) {
+    lower_thread_priority();
     for (std::size_t i = next_tile++; i < work.tiles.size() && is_finished; i = next_tile++) {
       if (!work.tiles[i].render_round(work.workers[lane], [&](std::uint64_t) { return go_on(); })) {
         is_finished = false;
