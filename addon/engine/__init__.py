@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..sync import changes
 from .final import BasicRTRenderEngine
 
 __all__ = ["BasicRTRenderEngine", "register", "unregister"]
@@ -12,9 +13,11 @@ __all__ = ["BasicRTRenderEngine", "register", "unregister"]
 
 def register() -> None:
     """Add the engine to Blender."""
+    changes.register()
     bpy.utils.register_class(BasicRTRenderEngine)
 
 
 def unregister() -> None:
     """Take it away: Blender 4.2 and 4.5 do not end properly with an engine left registered."""
     bpy.utils.unregister_class(BasicRTRenderEngine)
+    changes.unregister()

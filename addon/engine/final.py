@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import basicrt
 
     from ..sync.scene_sync import Export
+    from .viewport import Viewport
 
 # How often Blender is told of progress, and asked whether to stop.
 STATUS_SECONDS = 0.5
@@ -47,6 +48,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         """Blender calls it twice from 4.5 on."""
         super().__init__(*args, **kwargs)
         self.exported: Export | None = None
+        self.viewport: Viewport | None = None
         self.warnings = Report()  # of all view layers
         self.failure: str | None = None
 
@@ -67,6 +69,35 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
                 complete_without_pixels(self)
             else:
                 self._trace(exported, depsgraph)
+
+    def view_update(self, context: Any, depsgraph: Any) -> None:
+        """Blender's callback: something changed in the scene that a viewport shows."""
+        with caught(self._show_failure):
+            self._viewport().update(context, depsgraph)
+
+    def view_draw(self, context: Any, depsgraph: Any) -> None:
+        """Blender's callback: draw a viewport."""
+        with caught(self._show_failure):
+            self._viewport().draw(context, depsgraph)
+
+    def __del__(self) -> None:
+        """Blender has closed the viewport, or ended the render."""
+        viewport = getattr(self, "viewport", None)
+        if viewport is not None:
+            viewport.close()
+
+    def _viewport(self) -> Viewport:
+        """What shows the scene in the viewport of this engine."""
+        if self.viewport is None:
+            compat.check_native()
+            from .viewport import Viewport
+
+            self.viewport = Viewport(self)
+        return self.viewport
+
+    def _show_failure(self, message: str) -> None:
+        """In the corner of a viewport."""
+        self.update_stats("", message)
 
     def update_render_passes(
         self, scene: bpy.types.Scene | None = None, renderlayer: bpy.types.ViewLayer | None = None

@@ -184,7 +184,7 @@ def focus_distance(b_object: bpy.types.Object) -> float:
     return float(abs((matrix.translation - b_matrix.translation).dot(b_matrix.col[2].to_3d())))
 
 
-def _aperture(b_object: bpy.types.Object) -> dict[str, Any]:
+def aperture(b_object: bpy.types.Object) -> dict[str, Any]:
     """The lens that blurs what is out of focus, in metres; nothing where all is sharp."""
     b_camera: Any = b_object.data
     dof = b_camera.dof
@@ -217,6 +217,6 @@ def convert(
         transform=transform(b_object),
         clip_near=b_camera.clip_start,
         clip_far=b_camera.clip_end,
-        **_aperture(b_object),
+        **aperture(b_object),
         **values,
     )

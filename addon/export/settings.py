@@ -55,6 +55,10 @@ _MATTE_SWITCHES = {
 }
 
 
+# Of a pixel: where there is no limit.
+MOST_SAMPLES = 1 << 24
+
+
 @dataclass(frozen=True)
 class Border:
     """The pixels that are rendered: lower left corner and size."""

@@ -130,6 +130,7 @@ def texture_coordinate(of: Operands, output: str) -> Value | None:
         return of.add("vector", made)
     if output == "Object" and of.node.object is not None:
         place = surface(of, "vector", "position")
+        of.view.translation.textures.objects.add(of.node.object.original.session_uid)
         matrix = np.array(of.node.object.matrix_world.inverted_safe(), np.float32)
         return of.add("vector", basicrt.TransformOperation(vector=place.data, transform=matrix))
     return _uv(of, "") if output == "UV" else _surface_output(of, "vector", _COORDINATES[output])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What BasicRT adds to Blender's data: `scene.basicrt`."""
+"""What BasicRT adds to Blender's data: `scene.basicrt`, and `shading.basicrt` of 3D viewports."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from typing import Any
 import bpy
 
 from .render_settings import BasicRTRenderSettings
+from .view_settings import BasicRTViewSettings
 
 _SCENE: Any = bpy.types.Scene
+_SHADING: Any = bpy.types.View3DShading
 
 
 def settings_of(b_scene: bpy.types.Scene) -> BasicRTRenderSettings:
@@ -20,15 +22,21 @@ def settings_of(b_scene: bpy.types.Scene) -> BasicRTRenderSettings:
 
 
 def register() -> None:
-    """Add `scene.basicrt`."""
+    """Add them."""
     bpy.utils.register_class(BasicRTRenderSettings)
     make: Any = bpy.props.PointerProperty
     _SCENE.basicrt = make(
         type=BasicRTRenderSettings, name="BasicRT", description="BasicRT's render settings"
     )
+    bpy.utils.register_class(BasicRTViewSettings)
+    _SHADING.basicrt = make(
+        type=BasicRTViewSettings, name="BasicRT", description="BasicRT's settings of a viewport"
+    )
 
 
 def unregister() -> None:
-    """Take it away; files keep the values."""
+    """Take them away; files keep the values."""
+    del _SHADING.basicrt
+    bpy.utils.unregister_class(BasicRTViewSettings)
     del _SCENE.basicrt
     bpy.utils.unregister_class(BasicRTRenderSettings)

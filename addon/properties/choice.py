@@ -26,6 +26,7 @@ import bpy
 # Our setting -> Cycles' of the same meaning.
 CYCLES_NAMES = {
     "samples": "samples",
+    "preview_samples": "preview_samples",
     "seed": "seed",
     "use_animated_seed": "use_animated_seed",
     "max_bounces": "max_bounces",

@@ -42,6 +42,8 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
     if TYPE_CHECKING:
         use_cycles_settings: bool
         samples: int
+        preview_samples: int
+        preview_pause: bool
         seed: int
         use_animated_seed: bool
         adaptive_threshold: float
@@ -82,6 +84,20 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
             min=1,
             max=1 << 24,
             soft_max=4096,
+        )
+        preview_samples: IntProperty(
+            name="Viewport Samples",
+            description="Paths traced for each pixel of a viewport before it comes to rest; 0 goes on "
+            "for ever",
+            default=128,
+            min=0,
+            max=1 << 24,
+            soft_max=4096,
+        )
+        preview_pause: BoolProperty(
+            name="Pause Viewport",
+            description="Viewports show changes, but take no more samples",
+            default=False,
         )
         seed: IntProperty(
             name="Seed",

@@ -64,6 +64,19 @@ class BASICRT_RENDER_PT_sampling(_Panel, bpy.types.Panel):
         _draw(column, context, "light_threshold")
 
 
+class BASICRT_RENDER_PT_viewport(_Panel, bpy.types.Panel):
+    """How far viewports are refined."""
+
+    bl_label = "Viewport"
+    bl_parent_id = "BASICRT_RENDER_PT_sampling"
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        column = self.column()
+        _draw(column, context, "preview_samples")
+        column.prop(settings_of(context.scene), "preview_pause")
+
+
 class BASICRT_RENDER_PT_cycles(_Panel, bpy.types.Panel):
     """What is read from Cycles."""
 
@@ -276,6 +289,51 @@ class BASICRT_OBJECT_PT_ray_visibility(_Panel, bpy.types.Panel):
             column.prop(context.object, "is_holdout")
 
 
+class _ViewportPanel(_Panel):
+    """Among the settings of a viewport's shading, where that is the render."""
+
+    bl_space_type: Any = "VIEW_3D"
+    bl_region_type: Any = "HEADER"
+    bl_context = ""
+    bl_parent_id = "VIEW3D_PT_shading"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Blender's callback."""
+        return super().poll(context) and context.space_data.shading.type == "RENDERED"
+
+
+class BASICRT_VIEW3D_PT_lighting(_ViewportPanel, bpy.types.Panel):
+    """What lights a viewport."""
+
+    bl_label = "Lighting"
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        shading = context.space_data.shading
+        column = self.layout.column()
+        column.prop(shading, "use_scene_lights_render")
+        column.prop(shading, "use_scene_world_render")
+        if shading.use_scene_world_render:
+            return
+        row = column.row()
+        row.scale_y = 0.6
+        row.template_icon_view(shading, "studio_light", scale_popup=3)
+        column.prop(shading, "studiolight_rotate_z", text="Rotation")
+        column.prop(shading, "studiolight_intensity")
+        column.prop(shading, "studiolight_background_alpha")
+
+
+class BASICRT_VIEW3D_PT_render_pass(_ViewportPanel, bpy.types.Panel):
+    """What a viewport shows."""
+
+    bl_label = "Render Pass"
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        self.layout.prop(context.space_data.shading.basicrt, "render_pass", text="")
+
+
 # What each panorama_type has beside its name; Blender shows it for Cycles alone.
 PANORAMA_PROPERTIES = {
     "EQUIRECTANGULAR": ("latitude_min", "latitude_max", "longitude_min", "longitude_max"),
@@ -317,6 +375,7 @@ class BASICRT_CAMERA_PT_panorama(_Panel, bpy.types.Panel):
 
 _PANELS = (
     BASICRT_RENDER_PT_sampling,
+    BASICRT_RENDER_PT_viewport,
     BASICRT_RENDER_PT_cycles,
     BASICRT_RENDER_PT_light_paths,
     BASICRT_RENDER_PT_clamping,
@@ -328,6 +387,8 @@ _PANELS = (
     BASICRT_VIEWLAYER_PT_passes,
     BASICRT_OBJECT_PT_ray_visibility,
     BASICRT_CAMERA_PT_panorama,
+    BASICRT_VIEW3D_PT_lighting,
+    BASICRT_VIEW3D_PT_render_pass,
 )
 
 

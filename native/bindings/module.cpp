@@ -19,5 +19,6 @@ PYBIND11_MODULE(_native, m) {
   register_settings(m);
   register_scene(m);
   register_session(m);
+  register_view_session(m);
   register_io(m);
 }

@@ -16,6 +16,7 @@ void register_cameras(pybind11::module_& m);
 void register_settings(pybind11::module_& m);
 void register_scene(pybind11::module_& m);
 void register_session(pybind11::module_& m);
+void register_view_session(pybind11::module_& m);
 void register_io(pybind11::module_& m);
 
 }  // namespace basicrt::bindings

@@ -43,6 +43,8 @@ void bind_table(py::module_& m, const char* name) {
       .def(
           "append", [](const View& self, T value) { return self.edit().append(std::move(value)).index; },
           py::arg("value"), "Adds an entry and returns its index.")
+      .def(
+          "clear", [](const View& self) { self.edit().clear(); }, "Takes all entries away.")
       .def("__len__", [](const View& self) { return self.read().size(); })
       .def("__getitem__", [](const View& self, std::int64_t index) -> T { return self.read()[self.id(index)]; })
       .def("__setitem__",

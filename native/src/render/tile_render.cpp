@@ -119,6 +119,11 @@ Tile TileRender::finish() {
   return tile;
 }
 
+Tile TileRender::look() const {
+  TileAccumulator copy = accumulator_;
+  return copy.finish();
+}
+
 void TileRender::look_at_noise() {
   const int samples = plan_.round_ends[next_round_ - 1], planned = plan_.round_ends.back();
   const int closed = noise_->update(samples);

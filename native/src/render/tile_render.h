@@ -48,6 +48,8 @@ class TileRender {
   // The samples of the plan that turned out not to be needed, since this was last asked.
   [[nodiscard]] std::uint64_t take_spared();
   [[nodiscard]] Tile finish();
+  // What finish() would return now; more samples may follow.
+  [[nodiscard]] Tile look() const;
 
  private:
   void add_path(Worker& worker, int x, int y, const Sampler& pixel_sample);

@@ -174,6 +174,7 @@ std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::u
 }
 
 void set_window(PreparedScene& prepared, const Camera& camera, Vec2i film_size) {
+  prepared.window.reset();
   const auto set = [&](const CameraBase& flat, bool is_perspective) {
     prepared.window = CameraWindow{flat.window_min, flat.window_max - flat.window_min, is_perspective};
   };
@@ -192,14 +193,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   validate(scene);
 
   PreparedScene prepared;
-  const Vec2i film_size{scene.settings.width, scene.settings.height};
-  prepared.view = CameraView(*scene.camera, film_size);
-  prepared.moving_camera = MovingCamera(*scene.camera, film_size);
-  prepared.has_motion = prepared.moving_camera.is_moving();
-  prepared.world_to_camera = prepared.view.world_to_camera();
-  set_window(prepared, *scene.camera, film_size);
-  prepared.shutter = Shutter(scene.settings.shutter_curve);
-  prepared.settings = scene.settings;
+  prepared.settings.bvh_builder = scene.settings.bvh_builder;
   prepared.textures = scene.textures;
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
     prepared.materials.emplace_back(scene.materials[i], prepared.textures);
@@ -238,7 +232,8 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
                       .visibility = traced_visibility(instance),
                       .motion = added.motion});
     const auto* mesh = std::get_if<Mesh>(&prepared.shapes[instance.shape.index]);
-    prepared.has_motion = prepared.has_motion || !added.motion.empty() || (mesh && mesh->is_deforming());
+    prepared.has_moving_shapes =
+        prepared.has_moving_shapes || !added.motion.empty() || (mesh && mesh->is_deforming());
   }
   find_volumes(scene, prepared);
   for (const PreparedMaterial& prepared_material : prepared.materials)
@@ -252,7 +247,21 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i)) emitters.push_back(std::move(*emitter));
   prepared.lights = LightSet(std::move(lamps), std::move(emitters),
                              EnvironmentSampler(scene.environment, options.threads), prepared.tracer.bounds());
+  apply_view(prepared, *scene.camera, scene.settings);
   return prepared;
+}
+
+void apply_view(PreparedScene& prepared, const Camera& camera, const RenderSettings& settings) {
+  const Vec2i film_size{settings.width, settings.height};
+  prepared.view = CameraView(camera, film_size);
+  prepared.moving_camera = MovingCamera(camera, film_size);
+  prepared.has_motion = prepared.has_moving_shapes || prepared.moving_camera.is_moving();
+  prepared.world_to_camera = prepared.view.world_to_camera();
+  set_window(prepared, camera, film_size);
+  prepared.shutter = Shutter(settings.shutter_curve);
+  const BvhBuilder builder = prepared.settings.bvh_builder;
+  prepared.settings = settings;
+  prepared.settings.bvh_builder = builder;
 }
 
 PreparedScene prepare_watched(const Scene& scene, Report& report, int threads,

@@ -54,6 +54,7 @@ struct PreparedScene {
   std::vector<Bounds3f> volume_bounds;  // of each instance that is filled with a volume, at all times
   bool has_volumes = false;             // paths must know what they are in
   bool has_transparency = false;        // shadow rays must look at what they hit
+  bool has_moving_shapes = false;       // something but the camera moves or deforms
   bool has_motion = false;              // rays have a time
   bool has_shadow_catchers = false;
 
@@ -74,7 +75,11 @@ struct PrepareOptions {
 [[nodiscard]] PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous = {},
                                     PrepareOptions options = {});
 
-// The same on a thread of its own, while this one calls `watch` with the fraction done, several times in 100 ms. Where
+// Another camera and another way to make the picture: all that a view changes without a tree or a light being touched.
+// What builds trees stays as it was prepared. Both must be valid.
+void apply_view(PreparedScene& prepared, const Camera& camera, const RenderSettings& settings);
+
+// The same as prepare() on a thread of its own, while this one calls `watch` with the fraction done, several times in 100 ms. Where
 // that returns false the work ends and Cancelled is thrown; what it throws ends the work too.
 [[nodiscard]] PreparedScene prepare_watched(const Scene& scene, Report& report, int threads,
                                             const std::function<bool(double)>& watch);

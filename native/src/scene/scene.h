@@ -54,5 +54,7 @@ struct Scene {
 void validate(const Scene& scene);
 // The same but for what only rendering needs, a camera.
 void validate_description(const Scene& scene);
+// The camera and the settings alone.
+void validate_view(const Camera& camera, const RenderSettings& settings);
 
 }  // namespace basicrt

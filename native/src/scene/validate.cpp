@@ -299,6 +299,11 @@ void validate_description(const Scene& scene) {
   validate_lights(scene);
 }
 
+void validate_view(const Camera& camera, const RenderSettings& settings) {
+  validate_settings(settings);
+  std::visit([](const auto& kind) { validate_camera(kind); }, camera);
+}
+
 void validate(const Scene& scene) {
   validate_description(scene);
   if (!scene.camera) throw SceneError("camera", "the scene has none");

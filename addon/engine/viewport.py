@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A rendered 3D viewport: what Blender's two callbacks, of changes and of drawing, do for one."""
+
+from __future__ import annotations
+
+import warnings
+import weakref
+from typing import Any
+
+import bpy
+
+import basicrt
+
+from ..export import view
+from ..properties import settings_of
+from ..report import ExportError, Report, message_of, show_warnings
+from ..sync.instances import Filter
+from ..sync.scene_sync import SceneSync
+from .view_texture import ViewTexture
+
+# How often a picture that is being refined is looked for.
+POLL_SECONDS = 0.02
+
+
+class Viewport:
+    """Keeps a native scene like Blender's, and shows what the session makes of it.
+
+    The session works on threads of its own; nothing here waits for it. While it prepares a scene that
+    can't be changed: what changes in Blender meanwhile is remembered, and read afterwards.
+    """
+
+    def __init__(self, engine: bpy.types.RenderEngine) -> None:
+        self._engine = weakref.ref(engine)
+        self._session: basicrt.ViewSession | None = None
+        self._report = Report()
+        self._sync = SceneSync(self._report)
+        self._texture = ViewTexture()
+        self._shown: Any = None  # what the session was told to show
+        self._visible: Any = None  # what the viewport showed of the scene when it was read
+        self._is_out_of_date = False  # something changed that was not read yet
+        self._is_polling = False
+        self._message = ""
+
+    def close(self) -> None:
+        """Stop working."""
+        if self._session is not None:
+            self._session.close()
+            self._session = None
+
+    def update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Something in the scene has changed, or this is the first time."""
+        self._sync.note(depsgraph)
+        self._is_out_of_date = True
+        self._read_changes(context, depsgraph)
+
+    def draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Show the newest picture, and look where Blender looks now."""
+        if _visible(_region(context)) != self._visible:
+            self._sync.rescan()
+            self._is_out_of_date = True
+        if self._is_out_of_date:
+            self._read_changes(context, depsgraph)
+        self._look(context, depsgraph)
+        if self._session is not None:
+            picture = self._session.take_picture()
+            if picture is not None:
+                self._texture.set(picture)
+        region: Any = context.region
+        self._texture.draw(self._engine(), depsgraph.scene, region.width, region.height)
+        self._show_status()
+        self._poll_later()
+
+    def _read_changes(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """From Blender's data to the session's scene, unless that is busy with it."""
+        if self._session is None:
+            b_render: Any = depsgraph.scene.render
+            self._session = basicrt.ViewSession(b_render.threads)
+        if self._session.status.is_preparing:
+            self._poll_later()
+            return
+        self._is_out_of_date = False
+        region = _region(context)
+        self._visible = _visible(region)
+        camera = view.convert_camera(region, depsgraph, self._report)
+        self._sync.update(depsgraph, camera, _filter(region))
+        self._session.set_scene(self._sync.exported.scene)
+        show_warnings(self._report)
+
+    def _look(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Tell the session of another camera, size, border, pass or setting."""
+        if self._session is None:
+            return
+        region = _region(context)
+        camera = view.convert_camera(region, depsgraph, self._report)
+        settings = view.convert_settings(region, depsgraph, self._report)
+        pass_name = view.shown_pass(region)
+        shown = (repr(camera), repr(settings), pass_name)
+        if shown != self._shown:
+            self._shown = shown
+            self._session.set_view(camera, settings, pass_name)
+        self._session.set_paused(settings_of(depsgraph.scene).preview_pause)
+
+    def _show_status(self) -> None:
+        """The text in the corner of the viewport."""
+        engine: Any = self._engine()
+        if engine is None or self._session is None:
+            return
+        try:
+            status = self._session.status
+        except basicrt.SceneError as error:
+            self._message = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
+            status = None
+        for warning in self._session.take_warnings():
+            self._report.add(self._sync.exported.in_users_words(warning))
+            show_warnings(self._report)
+        if status is None or (status.is_done and status.samples == 0 and self._message):
+            engine.update_stats("", self._message)
+        elif status.is_preparing:
+            engine.update_stats("", f"Building trees | {status.prepared_fraction:.0%}")
+        else:
+            engine.update_stats("", f"Sample {status.samples}/{status.samples_end}")
+
+    def _poll_later(self) -> None:
+        """Have a look for pictures in a moment: Blender asks only when something happens to it."""
+        if not self._is_polling:
+            self._is_polling = True
+            bpy.app.timers.register(self._poll, first_interval=POLL_SECONDS)
+
+    def _poll(self) -> float | None:
+        """Blender's timer: has the viewport drawn where there is something new."""
+        engine, session = self._engine(), self._session
+        try:
+            if engine is None or session is None:
+                self._is_polling = False
+                return None
+            status = session.status
+            if session.has_picture or (self._is_out_of_date and not status.is_preparing):
+                engine.tag_redraw()
+        except ReferenceError:  # Blender has done away with the engine
+            self.close()
+            self._is_polling = False
+            return None
+        except basicrt.SceneError as error:
+            self._message = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
+            engine.tag_redraw()
+        is_done = status.is_done and not session.has_picture and not self._is_out_of_date
+        self._is_polling = not is_done
+        return None if is_done else POLL_SECONDS
+
+
+def _region(context: Any) -> view.Region:
+    return view.Region(context.region, context.space_data, context.region_data)
+
+
+def _filter(region: view.Region) -> Filter:
+    """What of the scene the viewport shows."""
+    return Filter(region.b_space, has_lights=region.b_space.shading.use_scene_lights_render)
+
+
+def _visible(region: view.Region) -> Any:
+    """All that decides on what the viewport hides."""
+    b_space = region.b_space
+    shading = b_space.shading
+    kinds = [name for name in dir(b_space) if name.startswith("show_object_viewport_")]
+    return (
+        b_space.local_view is not None,
+        b_space.use_local_collections,
+        shading.use_scene_lights_render,
+        [getattr(b_space, name) for name in kinds],
+    )

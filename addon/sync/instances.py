@@ -1,0 +1,376 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Placed meshes and lamps: the instances and lights of a native scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+import basicrt
+
+from .. import compat
+from ..export import attributes, light, material, mesh, visibility
+from ..export.identity import random_number, uid
+from ..nodes import MeshData, Textures
+from ..report import ExportError, Report
+from .changes import Changes
+from .motion import Key, MotionExport, key_of
+from .shapes import Shapes
+
+# Kinds of objects that Blender would draw and BasicRT doesn't. (Curves, text and the like come as
+# meshes too.)
+_UNSUPPORTED = {
+    "CURVES": "hair curves",
+    "POINTCLOUD": "point clouds",
+    "VOLUME": "volumes",
+}
+
+
+@dataclass
+class Placed:
+    """An object that is placed by itself, as the dependency graph would show it among its instances."""
+
+    object: Any
+    parent: None = None
+    is_instance: bool = False
+
+    @property
+    def matrix_world(self) -> Matrix:
+        """Where it is."""
+        matrix: Matrix = self.object.matrix_world
+        return matrix
+
+
+@dataclass(frozen=True)
+class Filter:
+    """What of the scene is shown."""
+
+    b_space: Any = None  # a viewport that may hide what the scene shows; None hides nothing
+    has_lights: bool = True
+
+    def shows(self, b_instance: Any) -> bool:
+        """Whether a placed object is among it."""
+        if not b_instance.show_self:
+            return False
+        if self.b_space is None:
+            return True
+        b_root = (b_instance.parent if b_instance.is_instance else None) or b_instance.object
+        return bool(b_root.visible_in_viewport_get(self.b_space))
+
+
+@dataclass
+class _Known:
+    """An instance of the scene."""
+
+    index: int  # in Scene.instances
+    shape: int  # in Scene.shapes
+    owners: tuple[int, int]  # the numbers of the object and of what instances it, or 0
+
+
+class Instances:
+    """Converts what is placed; what several instances share is converted once."""
+
+    def __init__(
+        self,
+        scene: basicrt.Scene,
+        names: dict[str, list[str]],
+        report: Report,
+        textures: Textures,
+        movement: MotionExport | None = None,
+    ) -> None:
+        self._scene = scene
+        self._names = names
+        self._report = report
+        self._textures = textures
+        self._movement = movement
+        self._shapes = Shapes(scene, names["shapes"])
+        self._materials: dict[int, int] = {}  # by the material's number
+        self._known: dict[Key, _Known | None] = {}  # None: it is none of ours, or has no faces
+        self._lights: dict[Key, int] = {}  # in Scene.lights
+        self._object_names: dict[int, str] = {}
+        self._instanced: set[int] = set()  # the numbers of objects that are placed by others, and of those
+        # Of one update, by the numbers of an object and of what instances it, and by the mesh's key.
+        self._slots: dict[tuple[int, int], list[int | None]] = {}
+        self._asked: dict[tuple[int, int], frozenset[MeshData]] = {}
+        self._visibility: dict[tuple[int, int], int] = {}
+        self._is_forgotten = False
+
+    def begin(self, depsgraph: bpy.types.Depsgraph, changes: Changes) -> None:
+        """Forget what has changed."""
+        self._b_view_layer = depsgraph.view_layer_eval
+        self._b_original_layer = depsgraph.view_layer
+        self._b_scene = depsgraph.scene_eval
+        self._slots.clear()
+        self._asked.clear()
+        self._visibility.clear()
+        if changes.shapes:
+            may_lack = changes.is_selection
+            present = {uid(b_object) for b_object in depsgraph.objects} if may_lack else None
+            self._shapes.forget(changes.shapes, present)
+
+    def forget(self) -> None:
+        """Convert all of them again in the next scan; shapes and materials stay."""
+        self._is_forgotten = True
+
+    def update_materials(self, depsgraph: bpy.types.Depsgraph, changes: Changes) -> bool:
+        """Convert again the materials that changed; whether they ask meshes for the same as before."""
+        is_same = True
+        wanted = changes.materials & self._materials.keys()
+        for b_material in bpy.data.materials if wanted else ():
+            key = uid(b_material)
+            if key not in wanted:
+                continue
+            asked = self._textures.mesh_data.get(key)
+            index = self._materials[key]
+            evaluated: Any = b_material.evaluated_get(depsgraph)
+            converted = material.convert(evaluated, self._report, self._textures)
+            self._scene.materials[index] = converted
+            self._names["materials"][index] = f'material "{b_material.name}"'
+            is_same &= asked == self._textures.mesh_data.get(key)
+            wanted = wanted - {key}
+        return is_same and not wanted
+
+    def touch(self, depsgraph: bpy.types.Depsgraph, changes: Changes) -> bool:
+        """Update the objects that changed and nothing else; False where that can't be done."""
+        found = []
+        for number in changes.objects:
+            b_object: Any = bpy.data.objects.get(self._object_names.get(number, ""))
+            if b_object is None or b_object.session_uid != number:
+                return False
+            evaluated = b_object.evaluated_get(depsgraph)
+            is_alone = (number, 0, ()) in self._known and number not in self._instanced
+            if evaluated.is_instancer or not is_alone:
+                return False
+            found.append(evaluated)
+        for evaluated in found:
+            key = (uid(evaluated), 0, ())
+            if key in self._lights and not self._touch_light(evaluated, self._lights[key]):
+                return False
+            known = self._known[key]
+            if known is None:
+                continue
+            made = self._convert(Placed(evaluated), evaluated)
+            if made is None:
+                return False
+            instance, shape = made
+            self._scene.instances[known.index] = instance
+            self._shapes.use(shape)
+            self._shapes.release(known.shape)
+            known.shape = shape
+        self._shapes.sweep()
+        return True
+
+    def scan(self, depsgraph: bpy.types.Depsgraph, changes: Changes, shown: Filter) -> None:
+        """Go over everything, and convert what is new or changed."""
+        before, self._known = self._known, {}
+        self._object_names.clear()
+        self._instanced.clear()
+        self._scene.lights.clear()
+        self._lights.clear()
+        kept: list[basicrt.Instance | None] = []  # None: as it was, at the same place
+        moved = len(before) == 0
+        for b_instance in depsgraph.object_instances:
+            if not shown.shows(b_instance):
+                continue
+            b_object: Any = b_instance.object
+            key = key_of(b_instance)
+            self._object_names[key[0]] = b_object.original.name
+            if b_instance.is_instance:
+                self._instanced.update(key[:2])
+            if b_object.type == "LIGHT":
+                self._known[key] = None
+                self._add_light(key, b_instance, shown)
+                continue
+            known = before.get(key)
+            if known is not None and self._is_kept(known, b_instance, changes):
+                self._known[key] = _Known(len(kept), known.shape, known.owners)
+                self._shapes.use(known.shape)
+                moved |= known.index != len(kept)
+                kept.append(None)
+                continue
+            self._known[key] = None
+            if b_object.type in _UNSUPPORTED:
+                self._warn(b_object, f"{_UNSUPPORTED[b_object.type]} are not supported: left out")
+            made = self._convert(b_instance, b_object) if b_object.type == "MESH" else None
+            if made is None:
+                continue
+            instance, shape = made
+            self._shapes.use(shape)
+            b_parent = b_instance.parent if b_instance.is_instance else None
+            owners = (key[0], uid(b_parent) if b_parent else 0)
+            self._known[key] = _Known(len(kept), shape, owners)
+            if self._movement is not None:
+                self._movement.note(b_instance, self._b_scene, len(kept), shape)
+            kept.append(instance)
+        self._is_forgotten = False
+        self._replace_instances(before, kept, moved)
+        for known in before.values():
+            if known is not None:
+                self._shapes.release(known.shape)
+        self._shapes.sweep()
+
+    def _replace_instances(
+        self, before: dict[Key, _Known | None], kept: list[basicrt.Instance | None], moved: bool
+    ) -> None:
+        """Make the table of instances that of the new ones, and of those that stay."""
+        table = self._scene.instances
+        if not moved and len(kept) == len(table):
+            for index, instance in enumerate(kept):
+                if instance is not None:
+                    table[index] = instance
+            return
+        for key, known in self._known.items():
+            if known is not None and kept[known.index] is None:
+                old = before[key]
+                assert old is not None
+                kept[known.index] = table[old.index]
+        table.clear()
+        for instance in kept:
+            assert instance is not None
+            table.append(instance)
+
+    def _is_kept(self, known: _Known, b_instance: Any, changes: Changes) -> bool:
+        """Whether an instance is what it was. Any object may have to do with where instances of others are."""
+        if self._is_forgotten or (b_instance.is_instance and changes.objects):
+            return False
+        return changes.objects.isdisjoint(known.owners)
+
+    def _add_light(self, key: Key, b_instance: Any, shown: Filter) -> None:
+        """One placed lamp."""
+        if not shown.has_lights:
+            return
+        converted = light.convert(b_instance.object, b_instance.matrix_world, self._report)
+        if converted is not None:
+            self._lights[key] = self._scene.lights.append(converted)
+
+    def _touch_light(self, b_object: Any, index: int) -> bool:
+        """A lamp that changed; False where it does not shine any more."""
+        converted = light.convert(b_object, b_object.matrix_world, self._report)
+        if converted is not None:
+            self._scene.lights[index] = converted
+        return converted is not None
+
+    def _warn(self, b_object: bpy.types.Object, message: str) -> None:
+        self._report.warn(f'object "{b_object.name}"', message)
+
+    def _convert(self, b_instance: Any, b_object: Any) -> tuple[basicrt.Instance, int] | None:
+        """One placed mesh, and the index of its shape; None where it has no faces or no volume."""
+        b_mesh: Any = b_object.data
+        materials = self._materials_of(b_object, b_mesh)
+        shape = self._shape_of(b_instance, b_object, b_mesh)
+        if shape is None:
+            return None
+        transform = np.array(b_instance.matrix_world, np.float64)
+        if not np.isfinite(transform).all():
+            raise ExportError(f'object "{b_object.name}": its transform is not finite')
+        if np.linalg.det(transform[:3, :3].astype(np.float32)) == 0.0:
+            self._warn(b_object, "scaled to nothing along an axis: left out")
+            return None
+        instance = basicrt.Instance(
+            shape=shape,
+            transform=transform,
+            materials=materials,
+            name=b_object.name,
+            visibility=self._visibility_of(b_instance, b_object),
+            color=b_object.color[:3],
+            alpha=b_object.color[3],
+            random=random_number(b_instance),
+            holdout=self._is_holdout(b_instance, b_object),
+            shadow_catcher=self._is_shadow_catcher(b_instance, b_object),
+            shadow_terminator_offset=compat.shadow_terminator_offset(b_object),
+            shadow_terminator_shading_offset=compat.shadow_terminator_shading_offset(b_object),
+            pass_index=b_object.pass_index,
+            asset_name=self._asset_name(b_instance, b_object),
+        )
+        return instance, shape
+
+    def _shape_of(self, b_instance: Any, b_object: Any, b_mesh: bpy.types.Mesh) -> int | None:
+        """The index of a mesh's shape, None where it has no faces."""
+        asked = self._asked[uid(b_object), mesh.key(b_mesh)]
+        key = (mesh.key(b_mesh), asked)
+        if key not in self._shapes:
+            name = f'object "{b_object.name}"'
+            self._shapes.add(key, self._new_shape(name, b_object, b_mesh, asked), name)
+        b_parent = b_instance.parent if b_instance.is_instance else None
+        objects = [uid(b_object), *([uid(b_parent)] if b_parent is not None else [])]
+        b_data = b_object.original.data
+        return self._shapes.index(key, objects, [uid(b_data)] if b_data is not None else [])
+
+    def _new_shape(
+        self, name: str, b_object: Any, b_mesh: bpy.types.Mesh, asked: frozenset[MeshData]
+    ) -> basicrt.Mesh | None:
+        """A mesh's new shape, called by the name of its first object."""
+        try:
+            shape = mesh.convert_object(b_object, b_mesh, asked)
+        except basicrt.SceneError as error:
+            raise ExportError(f"{name}: {error}") from error
+        if shape is not None and attributes.lacks_tangents(b_mesh, asked):
+            self._warn(b_object, "has no UV map for the tangents that its material asks for")
+        return shape
+
+    def _materials_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> list[int | None]:
+        """The material of each slot; Blender's default where a slot has none."""
+        key = (uid(b_object), mesh.key(b_mesh))
+        if key not in self._slots:
+            override = self._b_view_layer.material_override
+            materials = [override] if override else material.slots(b_object, b_mesh)
+            self._slots[key] = [self._material(b_material) for b_material in materials]
+            data = self._textures.mesh_data
+            asked = [data.get(uid(one), ()) for one in materials if one is not None]
+            self._asked[key] = frozenset().union(*asked)
+        return self._slots[key]
+
+    def _material(self, b_material: bpy.types.Material | None) -> int | None:
+        """The index of a material, None for none."""
+        if b_material is None:
+            return None
+        key = uid(b_material)
+        if key not in self._materials:
+            converted = material.convert(b_material, self._report, self._textures)
+            self._names["materials"].append(f'material "{b_material.name}"')
+            self._materials[key] = self._scene.materials.append(converted)
+        return self._materials[key]
+
+    def _asset_name(
+        self, b_instance: Any, b_object: bpy.types.Object
+    ) -> str:
+        """What an object is part of: its topmost parent, or that of what instances it."""
+        b_asset: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
+        while b_asset.parent is not None:
+            b_asset = b_asset.parent
+        return str(b_asset.name)
+
+    def _is_holdout(
+        self, b_instance: Any, b_object: bpy.types.Object
+    ) -> bool:
+        """Whether it is a hole in the picture: itself, what instances it, or a collection of it."""
+        b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
+        in_collection = b_root.original.holdout_get(view_layer=self._b_original_layer)
+        return bool(b_object.is_holdout or b_root.is_holdout or in_collection)
+
+    def _is_shadow_catcher(
+        self, b_instance: Any, b_object: bpy.types.Object
+    ) -> bool:
+        """Whether only shadows on it are seen: itself or what instances it says so."""
+        b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
+        return bool(b_object.is_shadow_catcher or b_root.is_shadow_catcher)
+
+    def _visibility_of(
+        self, b_instance: Any, b_object: bpy.types.Object
+    ) -> int:
+        """Which rays see an instance: those that may see both the object and what instances it."""
+        b_parent = b_instance.parent if b_instance.is_instance else None
+        key = (uid(b_object), uid(b_parent) if b_parent else 0)
+        if key not in self._visibility:
+            kinds = visibility.object_visibility(b_object)
+            if b_parent is not None:
+                kinds &= visibility.object_visibility(b_parent)
+            b_root: Any = b_parent or b_object
+            if b_root.original.indirect_only_get(view_layer=self._b_original_layer):
+                kinds &= ~basicrt.RayKind.CAMERA
+            self._visibility[key] = int(kinds)
+        return self._visibility[key]
