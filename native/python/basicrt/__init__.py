@@ -100,6 +100,7 @@ from ._native import (
     native_version,
     passes,
 )
+from .denoising import DenoiserError, check_denoiser, denoise
 from .images import read_exr, write_exr, write_png
 from .merging import merge
 from .ray_kinds import RayKind
@@ -124,6 +125,7 @@ __all__ = [
     "ConvertColorOperation",
     "CubemapFaceCamera",
     "CylindricalCamera",
+    "DenoiserError",
     "DiffuseShader",
     "EmissionShader",
     "Environment",
@@ -193,6 +195,8 @@ __all__ = [
     "WhiteNoiseOperation",
     "WireframeOperation",
     "__version__",
+    "check_denoiser",
+    "denoise",
     "load_scene",
     "look_at_camera",
     "merge",

@@ -31,10 +31,11 @@ def render_blend(
     samples: int | None = None,
     seed: int | None = None,
     threads: int = 0,
+    use_denoising: bool = False,
 ) -> None:
     """Renders the file's scene as Blender would: an .exr scene-linear in 32 bits, a .png with its view transform.
 
-    What is None (and `threads` 0) stays as the file has it. The output appears whole or not at all. Raises
+    What is None (and `threads` 0, `use_denoising` False) stays as the file has it. The output appears whole or not at all. Raises
     BlenderError, and KeyboardInterrupt where that is why there is no picture.
     """
     if not blend.is_file():
@@ -53,6 +54,8 @@ def render_blend(
         if threads:
             scene.render.threads_mode = "FIXED"
             scene.render.threads = threads
+        if use_denoising:
+            scene.basicrt.use_denoising = True
         _set_file_format(bpy, scene.render.image_settings, output.suffix.lower())
         with replacing(output.resolve()) as temporary:
             scene.render.use_file_extension = False
