@@ -13,11 +13,13 @@ import bpy
 from .. import compat
 from ..properties import settings_of
 from ..report import ExportError, Report, caught, show_warnings, summary
-from .result import ResultWriter, complete_without_pixels
+from .denoise import LayerDenoiser, can_denoise
+from .result import NOISY_PASS, ResultWriter, complete_without_pixels
 
 if TYPE_CHECKING:
     import basicrt
 
+    from ..export.denoising import Denoising
     from ..sync.scene_sync import Export
 
 # How often Blender is told of progress, and asked whether to stop.
@@ -79,6 +81,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         except compat.NativeModuleError:  # render() tells of it
             self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
             return
+        from ..export import denoising
         from ..export.settings import enabled_passes
 
         kinds: dict[str, Any] = {"XYZ": "VECTOR", "UVA": "VECTOR", "Z": "VALUE", "X": "VALUE"}
@@ -86,6 +89,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             channels, name = info.channels, compat.pass_name(info.name)
             kind = kinds.get(channels, "COLOR")
             self.register_pass(scene, renderlayer, name, len(channels), channels, kind)
+        if denoising.convert(scene, renderlayer) is not None:
+            self.register_pass(scene, renderlayer, NOISY_PASS, 4, "RGBA", "COLOR")
 
     def _remember_failure(self, message: str) -> None:
         """update() can't end a render: render() is called after it and does."""
@@ -114,6 +119,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
 
     def _trace(self, exported: Export, depsgraph: Any) -> None:
         """Pull tiles until there are no more or the user cancels."""
+        options = self._denoising(depsgraph)  # first: it may add a warning
         try:
             started = self._start_session(exported, depsgraph.scene)
         except CancelledError:
@@ -122,10 +128,14 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self._stamp_mattes(exported, depsgraph.view_layer.name)
         with started as session:
             writer = ResultWriter(self, depsgraph.view_layer.name, session.rect)
+            passes = list(exported.scene.settings.passes)
+            denoiser = LayerDenoiser(options, passes, session.rect) if options else None
             next_status = 0.0
             for tile in session.tiles(poll_seconds=POLL_SECONDS):
                 if tile is not None:
                     writer.write(tile)
+                    if denoiser is not None:
+                        denoiser.add(tile)
                 if self._is_cancelled():
                     session.stop()
                     break
@@ -134,7 +144,30 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
                     self._show_status(session.progress)
             if not session.is_stopped:
                 self._show_status(session.progress)
+                if denoiser is not None:
+                    self._denoise(denoiser, writer, depsgraph.scene)
         writer.finish()
+
+    def _denoising(self, depsgraph: Any) -> Denoising | None:
+        """How the view layer is denoised, if it is to be and can be."""
+        from ..export import denoising
+
+        options = denoising.convert(depsgraph.scene, depsgraph.view_layer)
+        if options is None or not can_denoise(depsgraph.scene, self.warnings):
+            return None
+        return options
+
+    def _denoise(self, denoiser: LayerDenoiser, writer: ResultWriter, b_scene: Any) -> None:
+        """Put the denoised picture in the noisy one's place; it stays where the denoiser fails."""
+        import basicrt
+
+        self.update_stats("", "Denoising")
+        try:
+            writer.write_whole(denoiser.finish(b_scene.render.threads))
+        except basicrt.DenoiserError as error:
+            self.warnings.warn(f'scene "{b_scene.name}"', f"{error}; the picture stays noisy")
+            show_warnings(self.warnings)
+            self.report({"WARNING"}, summary(self.warnings))
 
     def _stamp_mattes(self, exported: Export, layer: str) -> None:
         """Into the picture's metadata: which names the ids of mattes stand for."""

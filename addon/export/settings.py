@@ -14,6 +14,7 @@ from .. import compat
 from ..properties import settings_of
 from ..properties.choice import Choice
 from ..report import Report
+from . import denoising
 from .camera import resolution
 from .motion import shutter_curve
 
@@ -161,7 +162,9 @@ def convert(
     settings.shutter_curve = shutter_curve(b_render) if b_render.use_motion_blur else []
     settings.film_transparent = b_render.film_transparent
     _convert_mist(compat.view_layer_world(b_scene, b_view_layer), settings)
-    settings.passes = [info.name for info in enabled_passes(b_view_layer)]
+    asked = [info.name for info in enabled_passes(b_view_layer)]
+    denoised = denoising.convert(b_scene, b_view_layer)
+    settings.passes = list(dict.fromkeys((*asked, *(denoised.passes if denoised else ()))))
 
     item = f'scene "{b_scene.name}"'
     if b_render.use_multiview:

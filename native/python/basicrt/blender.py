@@ -35,8 +35,8 @@ def render_blend(
 ) -> None:
     """Renders the file's scene as Blender would: an .exr scene-linear in 32 bits, a .png with its view transform.
 
-    What is None (and `threads` 0, `use_denoising` False) stays as the file has it. The output appears whole or not at all. Raises
-    BlenderError, and KeyboardInterrupt where that is why there is no picture.
+    What is None (or `threads` 0, `use_denoising` False) stays as the file has it. The output appears whole or not at
+    all. Raises BlenderError, and KeyboardInterrupt where that is why there is no picture.
     """
     if not blend.is_file():
         raise BlenderError(f"{blend}: no such file")

@@ -22,7 +22,7 @@ NORMAL_PASS = "Denoising Normal"
 DENOISING_PASSES = (ALBEDO_PASS, NORMAL_PASS)
 PREFILTERS = ("accurate", "fast", "none")
 QUALITIES = ("high", "balanced", "fast")
-HINT = "pip install pyoidn"
+HINT = "`pip install pyoidn`"
 
 
 class DenoiserError(Exception):
@@ -77,7 +77,7 @@ def denoised(
     columns: slice = slice(None),
     **options: Any,
 ) -> dict[str, Picture]:
-    """The pictures "Combined", by denoise() with these options in some rows and columns, and "Noisy Image", as it was."""
+    """Combined, by denoise() with these options in some rows and columns, and Noisy Image, as it was before."""
     part = {
         name: pictures[name][rows, columns]
         for name in ("Combined", *DENOISING_PASSES)
@@ -107,7 +107,7 @@ def _library(hint: str = HINT) -> Any:
         return importlib.import_module("pyoidn")
     except (ImportError, OSError) as error:
         raise DenoiserError(
-            f"denoising needs Intel Open Image Denoise: install it with `{hint}` ({error})"
+            f"denoising needs Intel Open Image Denoise: install it with {hint} ({error})"
         ) from error
 
 
