@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import bpy
 
+from . import command_line
+from .command_line import Overrides
 from .final import BasicRTRenderEngine
 
-__all__ = ["BasicRTRenderEngine", "register", "unregister"]
+__all__ = ["BasicRTRenderEngine", "Overrides", "register", "unregister"]
 
 
 def register() -> None:
     """Add the engine to Blender."""
+    command_line.check()
     bpy.utils.register_class(BasicRTRenderEngine)
 
 

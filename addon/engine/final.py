@@ -13,6 +13,7 @@ import bpy
 from .. import compat
 from ..properties import settings_of
 from ..report import ExportError, Report, caught, show_warnings, summary
+from . import command_line
 from .denoise import LayerDenoiser, can_denoise
 from .result import NOISY_PASS, ResultWriter, complete_without_pixels
 
@@ -44,6 +45,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
     # When set, the next render writes its scene there instead of tracing it: only a render has a
     # dependency graph with the render's own visibility and modifiers.
     export_path: Path | None = None
+    # Settings that count before those of the command line and of scenes.
+    given_overrides: command_line.Overrides | None = None
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         """Blender calls it twice from 4.5 on."""
@@ -51,6 +54,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.exported: Export | None = None
         self.warnings = Report()  # of all view layers
         self.failure: str | None = None
+        self.overrides = command_line.Overrides()
 
     def update(self, data: Any = None, depsgraph: Any = None) -> None:
         """Blender's callback, with scene data locked: export everything a render needs."""
@@ -108,6 +112,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
 
     def _export(self, depsgraph: Any) -> None:
         """From Blender's data to a scene, and the warnings to their panel."""
+        self.overrides = self.given_overrides or command_line.overrides()
         compat.check_native()
         from ..sync import scene_sync
 
@@ -115,6 +120,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         b_camera = self.camera_override or depsgraph.scene.camera
         evaluated = b_camera.evaluated_get(depsgraph) if b_camera else None
         self.exported = scene_sync.export(depsgraph, evaluated, self.warnings, self.frame_set)
+        self.overrides.apply(self.exported.scene.settings, depsgraph.scene)
         show_warnings(self.warnings)
 
     def _trace(self, exported: Export, depsgraph: Any) -> None:
@@ -163,7 +169,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
 
         self.update_stats("", "Denoising")
         try:
-            writer.write_whole(denoiser.finish(b_scene.render.threads))
+            writer.write_whole(denoiser.finish(self._threads(b_scene)))
         except basicrt.DenoiserError as error:
             self.warnings.warn(f'scene "{b_scene.name}"', f"{error}; the picture stays noisy")
             show_warnings(self.warnings)
@@ -192,7 +198,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             try:
                 session = basicrt.Session(
                     exported.scene,
-                    threads=b_scene.render.threads,
+                    threads=self._threads(b_scene),
                     tile_size=settings_of(b_scene).tile_size,
                     preparing=self._watch_building,
                 )
@@ -204,6 +210,11 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         if self.warnings.warnings:
             self.report({"WARNING"}, summary(self.warnings))
         return session
+
+    def _threads(self, b_scene: Any) -> int:
+        """How many there are to be; 0 is one for each processor."""
+        chosen = self.overrides.threads
+        return int(b_scene.render.threads if chosen is None else chosen)
 
     def _watch_building(self, fraction: float) -> None:
         """Called while trees are built."""

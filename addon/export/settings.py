@@ -104,10 +104,10 @@ def _convert_mist(b_world: bpy.types.World | None, settings: basicrt.RenderSetti
     settings.mist_falloff = falloffs[mist.falloff]
 
 
-def _seed(chosen: Choice, b_scene: bpy.types.Scene) -> int:
+def seed_of_frame(seed: int, b_scene: bpy.types.Scene) -> int:
     """Another one in each frame where the user wants that."""
-    seed: int = chosen.seed
-    return seed + (b_scene.frame_current << 32) if chosen.use_animated_seed else seed
+    is_animated = Choice(b_scene).use_animated_seed
+    return seed + (b_scene.frame_current << 32) if is_animated else seed
 
 
 def _convert_filter(chosen: Choice, settings: basicrt.RenderSettings) -> None:
@@ -136,7 +136,7 @@ def convert(
     settings.border_width, settings.border_height = rectangle.width, rectangle.height
 
     settings.samples = b_view_layer.samples or chosen.samples
-    settings.seed = _seed(chosen, b_scene)
+    settings.seed = seed_of_frame(chosen.seed, b_scene)
     settings.adaptive_threshold = chosen.adaptive_threshold
     settings.adaptive_min_samples = chosen.adaptive_min_samples
     settings.time_limit = chosen.time_limit

@@ -70,7 +70,7 @@ def _make_parser() -> argparse.ArgumentParser:
         render.add_argument(
             f"--samples-{name}",
             type=int,
-            help=f"{what} this one, a multiple of 64: see `basicrt merge` (only for scene.json)",
+            help=f"{what} this one, a multiple of 64; of a scene.json for `basicrt merge`",
         )
     render.add_argument("--seed", type=int, help="another seed, other noise")
     render.add_argument("--threads", type=int, default=0, help="default: one per processor")
@@ -205,9 +205,8 @@ def _denoised(
 def _render_blend(options: argparse.Namespace, output: Path) -> None:
     from .blender import BlenderError, render_blend
 
-    for name in ("override", "samples_from", "samples_to"):
-        if getattr(options, name) is not None:
-            raise CommandError(f"--{name.replace('_', '-')}: only for scene.json")
+    if options.override is not None:
+        raise CommandError("--override: only for scene.json")
     try:
         render_blend(
             options.scene,
@@ -216,6 +215,8 @@ def _render_blend(options: argparse.Namespace, output: Path) -> None:
             samples=options.spp,
             seed=options.seed,
             threads=options.threads,
+            samples_from=options.samples_from,
+            samples_to=options.samples_to,
             use_denoising=options.denoise,
         )
     except BlenderError as error:
