@@ -86,11 +86,12 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
             return
         from ..export import denoising
-        from ..export.settings import enabled_passes
+        from ..export.settings import enabled_passes, pass_names
 
+        names = pass_names(renderlayer)
         kinds: dict[str, Any] = {"XYZ": "VECTOR", "UVA": "VECTOR", "Z": "VALUE", "X": "VALUE"}
         for info in enabled_passes(renderlayer):
-            channels, name = info.channels, compat.pass_name(info.name)
+            channels, name = info.channels, names[info.name]
             kind = kinds.get(channels, "COLOR")
             self.register_pass(scene, renderlayer, name, len(channels), channels, kind)
         if denoising.convert(scene, renderlayer) is not None:
@@ -125,6 +126,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
 
     def _trace(self, exported: Export, depsgraph: Any) -> None:
         """Pull tiles until there are no more or the user cancels."""
+        from ..export.settings import pass_names
+
         options = self._denoising(depsgraph)  # first: it may add a warning
         try:
             started = self._start_session(exported, depsgraph.scene)
@@ -133,7 +136,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             return
         self._stamp_mattes(exported, depsgraph.view_layer.name)
         with started as session:
-            writer = ResultWriter(self, depsgraph.view_layer.name, session.rect)
+            layer = depsgraph.view_layer
+            writer = ResultWriter(self, layer.name, session.rect, pass_names(layer))
             passes = list(exported.scene.settings.passes)
             denoiser = LayerDenoiser(options, passes, session.rect) if options else None
             next_status = 0.0

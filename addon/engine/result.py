@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
-from .. import compat
-
 if TYPE_CHECKING:
     import basicrt
 
@@ -26,10 +24,16 @@ class ResultWriter:
     """
 
     def __init__(
-        self, engine: bpy.types.RenderEngine, layer: str, rect: tuple[int, int, int, int]
+        self,
+        engine: bpy.types.RenderEngine,
+        layer: str,
+        rect: tuple[int, int, int, int],
+        names: Mapping[str, str],
     ) -> None:
+        """`names` are Blender's of the core's passes."""
         self._engine = engine
         self._layer = layer
+        self._names = names
         self._left, self._lower = rect[0], rect[1]
         self._is_empty = True
 
@@ -52,7 +56,7 @@ class ResultWriter:
             return
         for layer in result.layers:
             for name, picture in pictures.items():
-                b_pass = layer.passes.get(compat.pass_name(name))
+                b_pass = layer.passes.get(self._names.get(name, name))
                 if b_pass is not None:
                     # Blender cuts off what lies outside of its picture.
                     pixels = picture[: result.resolution_y, : result.resolution_x]

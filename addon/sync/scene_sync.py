@@ -13,7 +13,18 @@ import numpy as np
 import basicrt
 
 from .. import compat
-from ..export import attributes, camera, light, material, mesh, motion, settings, visibility, world
+from ..export import (
+    attributes,
+    camera,
+    light,
+    light_groups,
+    material,
+    mesh,
+    motion,
+    settings,
+    visibility,
+    world,
+)
 from ..export.identity import random_number, uid
 from ..nodes import MeshData, Textures
 from ..report import ExportError, Report
@@ -91,9 +102,12 @@ def _fill(
     scene.camera = camera.convert(b_camera, b_scene.render, report)
     textures = Textures(scene)
     b_world = compat.view_layer_world(b_scene, b_view_layer)
-    scene.environment = world.convert(b_world, report, textures)
+    groups = light_groups.numbers(b_view_layer, report)
+    environment = world.convert(b_world, report, textures)
+    environment.light_group = light_groups.number_of(b_world, groups)
+    scene.environment = environment
     _fill_space(exported, b_world, report, textures)
-    _InstanceExport(exported, depsgraph, report, textures, movement).run()
+    _InstanceExport(exported, depsgraph, report, textures, movement, groups).run()
 
 
 def _fill_space(
@@ -116,7 +130,9 @@ class _InstanceExport:
         report: Report,
         textures: Textures,
         movement: MotionExport | None,
+        groups: dict[str, int],
     ) -> None:
+        self._groups = groups  # of lights
         self._scene = exported.scene
         self._names = exported.names
         self._depsgraph = depsgraph
@@ -142,6 +158,7 @@ class _InstanceExport:
             elif b_object.type == "LIGHT":
                 converted = light.convert(b_object, b_instance.matrix_world, self._report)
                 if converted is not None:
+                    converted.light_group = light_groups.number_of(b_object, self._groups)
                     self._scene.lights.append(converted)
             elif b_object.type in _UNSUPPORTED:
                 self._warn(b_object, f"{_UNSUPPORTED[b_object.type]} are not supported: left out")
@@ -170,6 +187,7 @@ class _InstanceExport:
                 transform=transform,
                 materials=materials,
                 name=b_object.name,
+                light_group=light_groups.number_of(b_object, self._groups),
                 visibility=self._visibility_of(b_instance, b_object),
                 color=b_object.color[:3],
                 alpha=b_object.color[3],

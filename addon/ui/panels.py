@@ -8,32 +8,11 @@ from typing import Any
 
 import bpy
 
-from ..engine import BasicRTRenderEngine
 from ..engine.denoise import is_installed
 from ..properties import settings_of
 from ..properties.choice import Choice, has_cycles
 from ..report import shown_warnings
-
-
-class _Panel:
-    """What all of them share."""
-
-    bl_space_type: Any = "PROPERTIES"
-    bl_region_type: Any = "WINDOW"
-    bl_context = "render"
-    COMPAT_ENGINES = {BasicRTRenderEngine.bl_idname}
-    layout: Any
-
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Blender's callback."""
-        return context.engine in cls.COMPAT_ENGINES
-
-    def column(self) -> Any:
-        """Where properties go, in Blender's two-column style."""
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        return self.layout.column()
+from .panel import EnginePanel as _Panel
 
 
 def _draw(column: Any, context: Any, name: str) -> None:
