@@ -6,14 +6,17 @@ from __future__ import annotations
 import bpy
 
 from ..sync import changes
+from . import command_line
+from .command_line import Overrides
 from .final import BasicRTRenderEngine
 
-__all__ = ["BasicRTRenderEngine", "register", "unregister"]
+__all__ = ["BasicRTRenderEngine", "Overrides", "register", "unregister"]
 
 
 def register() -> None:
     """Add the engine to Blender."""
     changes.register()
+    command_line.check()
     bpy.utils.register_class(BasicRTRenderEngine)
 
 

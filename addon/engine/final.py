@@ -13,11 +13,14 @@ import bpy
 from .. import compat
 from ..properties import settings_of
 from ..report import ExportError, Report, caught, show_warnings, summary
-from .result import ResultWriter, complete_without_pixels
+from . import command_line
+from .denoise import LayerDenoiser, can_denoise
+from .result import NOISY_PASS, ResultWriter, complete_without_pixels
 
 if TYPE_CHECKING:
     import basicrt
 
+    from ..export.denoising import Denoising
     from ..sync.scene_sync import Export
     from .viewport import Viewport
 
@@ -43,6 +46,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
     # When set, the next render writes its scene there instead of tracing it: only a render has a
     # dependency graph with the render's own visibility and modifiers.
     export_path: Path | None = None
+    # Settings that count before those of the command line and of scenes.
+    given_overrides: command_line.Overrides | None = None
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         """Blender calls it twice from 4.5 on."""
@@ -51,6 +56,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.viewport: Viewport | None = None
         self.warnings = Report()  # of all view layers
         self.failure: str | None = None
+        self.overrides = command_line.Overrides()
 
     def update(self, data: Any = None, depsgraph: Any = None) -> None:
         """Blender's callback, with scene data locked: export everything a render needs."""
@@ -110,13 +116,17 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         except compat.NativeModuleError:  # render() tells of it
             self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
             return
-        from ..export.settings import enabled_passes
+        from ..export import denoising
+        from ..export.settings import enabled_passes, pass_names
 
+        names = pass_names(renderlayer)
         kinds: dict[str, Any] = {"XYZ": "VECTOR", "UVA": "VECTOR", "Z": "VALUE", "X": "VALUE"}
         for info in enabled_passes(renderlayer):
-            channels, name = info.channels, compat.pass_name(info.name)
+            channels, name = info.channels, names[info.name]
             kind = kinds.get(channels, "COLOR")
             self.register_pass(scene, renderlayer, name, len(channels), channels, kind)
+        if denoising.convert(scene, renderlayer) is not None:
+            self.register_pass(scene, renderlayer, NOISY_PASS, 4, "RGBA", "COLOR")
 
     def _remember_failure(self, message: str) -> None:
         """update() can't end a render: render() is called after it and does."""
@@ -134,6 +144,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
 
     def _export(self, depsgraph: Any) -> None:
         """From Blender's data to a scene, and the warnings to their panel."""
+        self.overrides = self.given_overrides or command_line.overrides()
         compat.check_native()
         from ..sync import scene_sync
 
@@ -141,10 +152,14 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         b_camera = self.camera_override or depsgraph.scene.camera
         evaluated = b_camera.evaluated_get(depsgraph) if b_camera else None
         self.exported = scene_sync.export(depsgraph, evaluated, self.warnings, self.frame_set)
+        self.overrides.apply(self.exported.scene.settings, depsgraph.scene)
         show_warnings(self.warnings)
 
     def _trace(self, exported: Export, depsgraph: Any) -> None:
         """Pull tiles until there are no more or the user cancels."""
+        from ..export.settings import pass_names
+
+        options = self._denoising(depsgraph)  # first: it may add a warning
         try:
             started = self._start_session(exported, depsgraph.scene)
         except CancelledError:
@@ -152,11 +167,16 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             return
         self._stamp_mattes(exported, depsgraph.view_layer.name)
         with started as session:
-            writer = ResultWriter(self, depsgraph.view_layer.name, session.rect)
+            layer = depsgraph.view_layer
+            writer = ResultWriter(self, layer.name, session.rect, pass_names(layer))
+            passes = list(exported.scene.settings.passes)
+            denoiser = LayerDenoiser(options, passes, session.rect) if options else None
             next_status = 0.0
             for tile in session.tiles(poll_seconds=POLL_SECONDS):
                 if tile is not None:
                     writer.write(tile)
+                    if denoiser is not None:
+                        denoiser.add(tile)
                 if self._is_cancelled():
                     session.stop()
                     break
@@ -165,7 +185,30 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
                     self._show_status(session.progress)
             if not session.is_stopped:
                 self._show_status(session.progress)
+                if denoiser is not None:
+                    self._denoise(denoiser, writer, depsgraph.scene)
         writer.finish()
+
+    def _denoising(self, depsgraph: Any) -> Denoising | None:
+        """How the view layer is denoised, if it is to be and can be."""
+        from ..export import denoising
+
+        options = denoising.convert(depsgraph.scene, depsgraph.view_layer)
+        if options is None or not can_denoise(depsgraph.scene, self.warnings):
+            return None
+        return options
+
+    def _denoise(self, denoiser: LayerDenoiser, writer: ResultWriter, b_scene: Any) -> None:
+        """Put the denoised picture in the noisy one's place; it stays where the denoiser fails."""
+        import basicrt
+
+        self.update_stats("", "Denoising")
+        try:
+            writer.write_whole(denoiser.finish(self._threads(b_scene)))
+        except basicrt.DenoiserError as error:
+            self.warnings.warn(f'scene "{b_scene.name}"', f"{error}; the picture stays noisy")
+            show_warnings(self.warnings)
+            self.report({"WARNING"}, summary(self.warnings))
 
     def _stamp_mattes(self, exported: Export, layer: str) -> None:
         """Into the picture's metadata: which names the ids of mattes stand for."""
@@ -190,7 +233,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             try:
                 session = basicrt.Session(
                     exported.scene,
-                    threads=b_scene.render.threads,
+                    threads=self._threads(b_scene),
                     tile_size=settings_of(b_scene).tile_size,
                     preparing=self._watch_building,
                 )
@@ -202,6 +245,11 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         if self.warnings.warnings:
             self.report({"WARNING"}, summary(self.warnings))
         return session
+
+    def _threads(self, b_scene: Any) -> int:
+        """How many there are to be; 0 is one for each processor."""
+        chosen = self.overrides.threads
+        return int(b_scene.render.threads if chosen is None else chosen)
 
     def _watch_building(self, fraction: float) -> None:
         """Called while trees are built."""

@@ -14,6 +14,7 @@ from .. import compat
 from ..properties import settings_of
 from ..properties.choice import Choice
 from ..report import Report
+from . import denoising, light_groups
 from .camera import resolution
 from .motion import shutter_curve
 
@@ -81,7 +82,21 @@ def border(b_render: bpy.types.RenderSettings) -> Border:
 
 def enabled_passes(b_view_layer: bpy.types.ViewLayer) -> list[basicrt.PassInfo]:
     """The rows of the table of passes that a view layer asks for."""
-    return [info for info in basicrt.passes() if _is_enabled(info.name, b_view_layer)]
+    groups = light_groups.pass_names(b_view_layer)
+    return [
+        info
+        for info in basicrt.passes()
+        if info.name in groups or _is_enabled(info.name, b_view_layer)
+    ]
+
+
+def pass_names(b_view_layer: bpy.types.ViewLayer) -> dict[str, str]:
+    """What Blender calls the passes that a view layer asks for, by the core's names."""
+    groups = light_groups.pass_names(b_view_layer)
+    return {
+        info.name: groups.get(info.name, compat.pass_name(info.name))
+        for info in enabled_passes(b_view_layer)
+    }
 
 
 def _is_enabled(name: str, b_view_layer: Any) -> bool:
@@ -107,10 +122,10 @@ def _convert_mist(b_world: bpy.types.World | None, settings: basicrt.RenderSetti
     settings.mist_falloff = falloffs[mist.falloff]
 
 
-def _seed(chosen: Choice, b_scene: bpy.types.Scene) -> int:
+def seed_of_frame(seed: int, b_scene: bpy.types.Scene) -> int:
     """Another one in each frame where the user wants that."""
-    seed: int = chosen.seed
-    return seed + (b_scene.frame_current << 32) if chosen.use_animated_seed else seed
+    is_animated = Choice(b_scene).use_animated_seed
+    return seed + (b_scene.frame_current << 32) if is_animated else seed
 
 
 def _convert_filter(chosen: Choice, settings: basicrt.RenderSettings) -> None:
@@ -139,7 +154,7 @@ def convert(
     settings.border_width, settings.border_height = rectangle.width, rectangle.height
 
     settings.samples = b_view_layer.samples or chosen.samples
-    settings.seed = _seed(chosen, b_scene)
+    settings.seed = seed_of_frame(chosen.seed, b_scene)
     settings.adaptive_threshold = chosen.adaptive_threshold
     settings.adaptive_min_samples = chosen.adaptive_min_samples
     settings.time_limit = chosen.time_limit
@@ -165,7 +180,9 @@ def convert(
     settings.shutter_curve = shutter_curve(b_render) if b_render.use_motion_blur else []
     settings.film_transparent = b_render.film_transparent
     _convert_mist(compat.view_layer_world(b_scene, b_view_layer), settings)
-    settings.passes = [info.name for info in enabled_passes(b_view_layer)]
+    asked = [info.name for info in enabled_passes(b_view_layer)]
+    denoised = denoising.convert(b_scene, b_view_layer)
+    settings.passes = list(dict.fromkeys((*asked, *(denoised.passes if denoised else ()))))
 
     item = f'scene "{b_scene.name}"'
     if b_render.use_multiview:

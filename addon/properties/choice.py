@@ -49,6 +49,10 @@ CYCLES_NAMES = {
     "film_transparent_roughness": "film_transparent_roughness",
     "filter_type": "pixel_filter_type",
     "filter_width": "filter_width",
+    "use_denoising": "use_denoising",
+    "denoising_input_passes": "denoising_input_passes",
+    "denoising_prefilter": "denoising_prefilter",
+    "denoising_quality": "denoising_quality",
 }
 
 

@@ -28,6 +28,25 @@ BVH_BUILDERS = (
     ),
     ("MEDIAN", "Median Split", "The reference: simple, slower to trace"),
 )
+DENOISING_INPUTS = (
+    ("RGB", "None", "The denoiser sees the picture only"),
+    ("RGB_ALBEDO", "Albedo", "It sees the colours of surfaces too"),
+    (
+        "RGB_ALBEDO_NORMAL",
+        "Albedo and Normal",
+        "It sees the colours and directions of surfaces too",
+    ),
+)
+DENOISING_PREFILTERS = (
+    ("NONE", "None", "Albedo and normal are taken as they are, for ones without noise"),
+    ("FAST", "Fast", "Their noise is taken away together with the picture's"),
+    ("ACCURATE", "Accurate", "Their noise is taken away first: the best, and the slowest"),
+)
+DENOISING_QUALITIES = (
+    ("HIGH", "High", "For final pictures"),
+    ("BALANCED", "Balanced", "Faster, a little less exact"),
+    ("FAST", "Fast", "The fastest"),
+)
 
 
 def _bounces(name: str, default: int, description: str) -> Any:
@@ -67,6 +86,10 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         film_exposure: float
         film_transparent_glass: bool
         film_transparent_roughness: float
+        use_denoising: bool
+        denoising_input_passes: str
+        denoising_prefilter: str
+        denoising_quality: str
         tile_size: int
         bvh_builder: str
     else:
@@ -236,6 +259,30 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
             default=1.0,
             min=0.0,
             soft_max=10.0,
+        )
+        use_denoising: BoolProperty(
+            name="Denoise",
+            description="Take the noise out of the finished picture with Intel's Open Image Denoise, "
+            "which must be installed. The noisy one is kept as the pass Noisy Image",
+            default=False,
+        )
+        denoising_input_passes: EnumProperty(
+            name="Passes",
+            description="What the denoiser sees beside the picture, so as to tell details from noise",
+            items=DENOISING_INPUTS,
+            default="RGB_ALBEDO_NORMAL",
+        )
+        denoising_prefilter: EnumProperty(
+            name="Prefilter",
+            description="What becomes of the noise in albedo and normal",
+            items=DENOISING_PREFILTERS,
+            default="ACCURATE",
+        )
+        denoising_quality: EnumProperty(
+            name="Quality",
+            description="How much time the denoiser takes",
+            items=DENOISING_QUALITIES,
+            default="HIGH",
         )
         tile_size: IntProperty(
             name="Tile Size",

@@ -13,7 +13,7 @@ from mathutils import Matrix
 import basicrt
 
 from .. import compat
-from ..export import attributes, light, material, mesh, visibility
+from ..export import attributes, light, light_groups, material, mesh, visibility
 from ..export.identity import random_number, uid
 from ..nodes import MeshData, Textures
 from ..report import ExportError, Report
@@ -92,7 +92,9 @@ class Instances:
         self._known: dict[Key, _Known | None] = {}  # None: it is none of ours, or has no faces
         self._lights: dict[Key, int] = {}  # in Scene.lights
         self._object_names: dict[int, str] = {}
-        self._instanced: set[int] = set()  # the numbers of objects that are placed by others, and of those
+        self._instanced: set[int] = (
+            set()
+        )  # the numbers of objects that are placed by others, and of those
         # Of one update, by the numbers of an object and of what instances it, and by the mesh's key.
         self._slots: dict[tuple[int, int], list[int | None]] = {}
         self._asked: dict[tuple[int, int], frozenset[MeshData]] = {}
@@ -104,6 +106,7 @@ class Instances:
         self._b_view_layer = depsgraph.view_layer_eval
         self._b_original_layer = depsgraph.view_layer
         self._b_scene = depsgraph.scene_eval
+        self._groups = light_groups.numbers(depsgraph.view_layer, self._report)
         self._slots.clear()
         self._asked.clear()
         self._visibility.clear()
@@ -243,16 +246,23 @@ class Instances:
         """One placed lamp."""
         if not shown.has_lights:
             return
-        converted = light.convert(b_instance.object, b_instance.matrix_world, self._report)
+        converted = self._convert_light(b_instance.object, b_instance.matrix_world)
         if converted is not None:
             self._lights[key] = self._scene.lights.append(converted)
 
     def _touch_light(self, b_object: Any, index: int) -> bool:
         """A lamp that changed; False where it does not shine any more."""
-        converted = light.convert(b_object, b_object.matrix_world, self._report)
+        converted = self._convert_light(b_object, b_object.matrix_world)
         if converted is not None:
             self._scene.lights[index] = converted
         return converted is not None
+
+    def _convert_light(self, b_object: Any, matrix: Matrix) -> Any:
+        """A lamp, None where it doesn't shine."""
+        converted = light.convert(b_object, matrix, self._report)
+        if converted is not None:
+            converted.light_group = light_groups.number_of(b_object, self._groups)
+        return converted
 
     def _warn(self, b_object: bpy.types.Object, message: str) -> None:
         self._report.warn(f'object "{b_object.name}"', message)
@@ -275,6 +285,7 @@ class Instances:
             transform=transform,
             materials=materials,
             name=b_object.name,
+            light_group=light_groups.number_of(b_object, self._groups),
             visibility=self._visibility_of(b_instance, b_object),
             color=b_object.color[:3],
             alpha=b_object.color[3],
@@ -335,33 +346,25 @@ class Instances:
             self._materials[key] = self._scene.materials.append(converted)
         return self._materials[key]
 
-    def _asset_name(
-        self, b_instance: Any, b_object: bpy.types.Object
-    ) -> str:
+    def _asset_name(self, b_instance: Any, b_object: bpy.types.Object) -> str:
         """What an object is part of: its topmost parent, or that of what instances it."""
         b_asset: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
         while b_asset.parent is not None:
             b_asset = b_asset.parent
         return str(b_asset.name)
 
-    def _is_holdout(
-        self, b_instance: Any, b_object: bpy.types.Object
-    ) -> bool:
+    def _is_holdout(self, b_instance: Any, b_object: bpy.types.Object) -> bool:
         """Whether it is a hole in the picture: itself, what instances it, or a collection of it."""
         b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
         in_collection = b_root.original.holdout_get(view_layer=self._b_original_layer)
         return bool(b_object.is_holdout or b_root.is_holdout or in_collection)
 
-    def _is_shadow_catcher(
-        self, b_instance: Any, b_object: bpy.types.Object
-    ) -> bool:
+    def _is_shadow_catcher(self, b_instance: Any, b_object: bpy.types.Object) -> bool:
         """Whether only shadows on it are seen: itself or what instances it says so."""
         b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
         return bool(b_object.is_shadow_catcher or b_root.is_shadow_catcher)
 
-    def _visibility_of(
-        self, b_instance: Any, b_object: bpy.types.Object
-    ) -> int:
+    def _visibility_of(self, b_instance: Any, b_object: bpy.types.Object) -> int:
         """Which rays see an instance: those that may see both the object and what instances it."""
         b_parent = b_instance.parent if b_instance.is_instance else None
         key = (uid(b_object), uid(b_parent) if b_parent else 0)

@@ -13,13 +13,14 @@ import bpy
 import basicrt
 
 from .. import compat
-from ..export import camera, motion, settings, world
+from ..export import camera, light_groups, motion, settings, world
 from ..export.identity import uid
 from ..nodes import Textures
 from ..report import ExportError, Report
 from .changes import Changes, history
 from .instances import Filter, Instances
 from .motion import FrameSet, MotionExport, set_frame
+
 
 @dataclass
 class Export:
@@ -138,9 +139,7 @@ class SceneSync:
             scene.world_volume = None
             changes.has_world = True
             self._textures = Textures(scene)
-            self._instances = Instances(
-                scene, names, self._report, self._textures, self._movement
-            )
+            self._instances = Instances(scene, names, self._report, self._textures, self._movement)
         elif changes.has_renamed or not is_old_layout:
             self._instances.forget()
         changes.is_selection |= changes.is_everything or changes.has_renamed or not is_old_layout
@@ -161,9 +160,11 @@ class SceneSync:
         """Convert what has changed."""
         b_scene: Any = depsgraph.scene_eval
         b_world = compat.view_layer_world(b_scene, depsgraph.view_layer_eval)
-        chosen = (uid(b_world) if b_world else 0, environment is not None)
+        groups = light_groups.numbers(depsgraph.view_layer)
+        group = light_groups.number_of(b_world, groups)
+        chosen = (uid(b_world) if b_world else 0, environment is not None, group)
         if changes.has_world or chosen != self._world:
-            self._convert_world(b_world, environment)
+            self._convert_world(b_world, environment, group)
             self._world = chosen
         self._instances.begin(depsgraph, changes)
         has_same_slots = self._instances.update_materials(depsgraph, changes)
@@ -174,14 +175,16 @@ class SceneSync:
             self._instances.scan(depsgraph, changes, shown)
 
     def _convert_world(
-        self, b_world: bpy.types.World | None, environment: basicrt.Environment | None
+        self, b_world: bpy.types.World | None, environment: basicrt.Environment | None, group: int
     ) -> None:
         """What surrounds the scene, and the volume that fills it if there is one."""
         scene, names = self.exported.scene, self.exported.names["materials"]
         if environment is not None:
             scene.environment, scene.world_volume = environment, None
             return
-        scene.environment = world.convert(b_world, self._report, self._textures)
+        converted = world.convert(b_world, self._report, self._textures)
+        converted.light_group = group
+        scene.environment = converted
         volume = world.convert_volume(b_world, self._report, self._textures)
         index, scene.world_volume = scene.world_volume, None
         if b_world is None or volume is None:
@@ -205,6 +208,7 @@ def _layout(depsgraph: bpy.types.Depsgraph) -> Iterator[Any]:
     b_view_layer: Any = depsgraph.view_layer
     override = b_view_layer.material_override
     yield uid(override) if override else 0
+    yield light_groups.numbers(b_view_layer)
     waiting = [b_view_layer.layer_collection]
     while waiting:
         b_layer = waiting.pop()

@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
-from . import core_panels, panels
+from . import core_panels, light_group_panels, panels
 
 
 def register() -> None:
     """Show the panels."""
     panels.register()
+    light_group_panels.register()
     core_panels.register()
 
 
 def unregister() -> None:
     """Hide them again."""
     core_panels.unregister()
+    light_group_panels.unregister()
     panels.unregister()

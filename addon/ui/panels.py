@@ -8,31 +8,11 @@ from typing import Any
 
 import bpy
 
-from ..engine import BasicRTRenderEngine
+from ..engine.denoise import is_installed
 from ..properties import settings_of
 from ..properties.choice import Choice, has_cycles
 from ..report import shown_warnings
-
-
-class _Panel:
-    """What all of them share."""
-
-    bl_space_type: Any = "PROPERTIES"
-    bl_region_type: Any = "WINDOW"
-    bl_context = "render"
-    COMPAT_ENGINES = {BasicRTRenderEngine.bl_idname}
-    layout: Any
-
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Blender's callback."""
-        return context.engine in cls.COMPAT_ENGINES
-
-    def column(self) -> Any:
-        """Where properties go, in Blender's two-column style."""
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        return self.layout.column()
+from .panel import EnginePanel as _Panel
 
 
 def _draw(column: Any, context: Any, name: str) -> None:
@@ -94,6 +74,31 @@ class BASICRT_RENDER_PT_cycles(_Panel, bpy.types.Panel):
         column = self.column()
         column.prop(settings_of(context.scene), "use_cycles_settings")
         column.operator("basicrt.copy_cycles_settings")
+
+
+class BASICRT_RENDER_PT_denoising(_Panel, bpy.types.Panel):
+    """How noise is taken out of the finished picture."""
+
+    bl_label = "Denoise"
+    bl_parent_id = "BASICRT_RENDER_PT_sampling"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context: Any) -> None:
+        """Blender's callback."""
+        source = Choice(context.scene).source("use_denoising")
+        self.layout.prop(source.owner, source.name, text="")
+
+    def draw(self, context: Any) -> None:
+        """Blender's callback."""
+        chosen, column = Choice(context.scene), self.column()
+        column.active = chosen.use_denoising
+        _draw(column, context, "denoising_input_passes")
+        row = column.row()
+        row.active = chosen.denoising_input_passes != "RGB"
+        _draw(row, context, "denoising_prefilter")
+        _draw(column, context, "denoising_quality")
+        if not is_installed():
+            column.label(text="Open Image Denoise is not installed", icon="ERROR")
 
 
 class BASICRT_RENDER_PT_light_paths(_Panel, bpy.types.Panel):
@@ -376,6 +381,7 @@ class BASICRT_CAMERA_PT_panorama(_Panel, bpy.types.Panel):
 _PANELS = (
     BASICRT_RENDER_PT_sampling,
     BASICRT_RENDER_PT_viewport,
+    BASICRT_RENDER_PT_denoising,
     BASICRT_RENDER_PT_cycles,
     BASICRT_RENDER_PT_light_paths,
     BASICRT_RENDER_PT_clamping,

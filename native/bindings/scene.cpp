@@ -119,6 +119,9 @@ void bind_instance(py::module_& m) {
       make_attribute(field("shadow_terminator_shading_offset", &Instance::shadow_terminator_shading_offset,
                            "how much light is dimmed that grazes the object", within(0, 1))),
       make_attribute(field("pass_index", &Instance::pass_index, "for the pass Object Index and materials that ask")),
+      make_attribute(field("light_group", &Instance::light_group,
+                           "the light of its materials is in the pass Light Group of this number too; 0: in none",
+                           within(0, light_groups))),
       make_attribute(
           field("asset_name", &Instance::asset_name, "what it is part of, for the passes CryptoAsset; none: `name`"))};
   bind_fields<Instance>(m, "Instance", "A shape placed in the world.", attributes);

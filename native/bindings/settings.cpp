@@ -32,7 +32,7 @@ PassLayout read_passes(py::handle value, const std::string& item) {
   if (py::isinstance<py::str>(value)) refuse_type(item, "must be a list of names", value);
   std::vector<std::string_view> known;
   for (const PassInfo& info : passes) known.push_back(info.name);
-  PassLayout layout{.mask = 0};
+  PassLayout layout = PassLayout::none();
   for (const std::string& name : PythonValue<std::vector<std::string>>::read(value, item))
     layout.enable(passes[read_enum(py::str(name), item, known)].pass);
   return layout;

@@ -46,7 +46,7 @@ def test_importing_needs_numpy_only() -> None:
     """Blender's Python has numpy and nothing else of ours."""
     code = """
 import sys
-for name in ("OpenEXR", "PIL", "flip_evaluator", "bpy"):
+for name in ("OpenEXR", "PIL", "flip_evaluator", "pyoidn", "bpy"):
     sys.modules[name] = None
 import basicrt, basicrt.cli, basicrt.blender, basicrt.compare
 """

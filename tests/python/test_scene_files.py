@@ -2,12 +2,14 @@
 """load_scene: what Python adds to the native reader, and that its errors and warnings arrive."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import basicrt
 from basicrt import SceneError
+from support.scenes import still_life
 
 SCENE = {
     "integrator": {"type": "path", "spp": 3},
@@ -120,3 +122,33 @@ def test_warnings_point_at_the_caller(scene_path) -> None:
         scene = basicrt.load_scene(scene_path)
     assert scene.settings.integrator == "path"
     assert caught[0].filename == __file__
+
+
+def test_light_groups_survive_a_file(tmp_path: Path) -> None:
+    scene = still_life()
+    lamp = scene.lights[0]
+    lamp.light_group = 16
+    scene.lights[0] = lamp
+    instance = scene.instances[1]
+    instance.light_group = 2
+    scene.instances[1] = instance
+    scene.environment.light_group = 3
+    scene.settings.passes = ["Combined", "Light Group 03", "Light Group 16"]
+    scene.save(tmp_path / "scene.json")
+    loaded = basicrt.load_scene(tmp_path / "scene.json")
+    assert loaded.lights[0].light_group == 16
+    assert [one.light_group for one in loaded.instances] == [0, 2, 0]
+    assert loaded.environment.light_group == 3
+    assert loaded.settings.passes == scene.settings.passes
+    pictures = basicrt.render(loaded)
+    total = pictures["Light Group 03"] + pictures["Light Group 16"]
+    np.testing.assert_allclose(total, pictures["Combined"][..., :3], rtol=1e-5, atol=1e-5)
+
+
+@pytest.mark.parametrize("group", [-1, 17])
+def test_there_are_sixteen_light_groups(tmp_path: Path, group: int) -> None:
+    scene = still_life()
+    scene.save(tmp_path / "scene.json")
+    override = json.dumps({"environment": {"light_group": group}})
+    with pytest.raises(basicrt.SceneError, match=rf"environment.light_group: .*{group}"):
+        basicrt.render(basicrt.load_scene(tmp_path / "scene.json", override=override))

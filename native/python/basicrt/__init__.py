@@ -105,6 +105,7 @@ from ._native import (
     native_version,
     passes,
 )
+from .denoising import DenoiserError, check_denoiser, denoise
 from .images import read_exr, write_exr, write_png
 from .merging import merge
 from .ray_kinds import RayKind
@@ -130,6 +131,7 @@ __all__ = [
     "ConvertColorOperation",
     "CubemapFaceCamera",
     "CylindricalCamera",
+    "DenoiserError",
     "DiffuseShader",
     "EmissionShader",
     "Environment",
@@ -203,6 +205,8 @@ __all__ = [
     "WhiteNoiseOperation",
     "WireframeOperation",
     "__version__",
+    "check_denoiser",
+    "denoise",
     "load_scene",
     "look_at_camera",
     "merge",

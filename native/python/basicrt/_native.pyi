@@ -3991,6 +3991,7 @@ class PointLight:
     volume_visible: it lights volumes
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
+    light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
     """
     def __init__(
         self,
@@ -4005,6 +4006,7 @@ class PointLight:
         volume_visible: bool = True,
         casts_shadows: bool = True,
         max_bounces: int = 1024,
+        light_group: int = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4044,6 +4046,13 @@ class PointLight:
     def intensity(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
+    @property
+    def light_group(self) -> int:
+        """
+        its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+        """
+    @light_group.setter
+    def light_group(self, value: int) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
@@ -4104,6 +4113,7 @@ class SpotLight:
     volume_visible: it lights volumes
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
+    light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
     """
     def __init__(
         self,
@@ -4120,6 +4130,7 @@ class SpotLight:
         volume_visible: bool = True,
         casts_shadows: bool = True,
         max_bounces: int = 1024,
+        light_group: int = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4173,6 +4184,13 @@ class SpotLight:
     def intensity(
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
+    @property
+    def light_group(self) -> int:
+        """
+        its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+        """
+    @light_group.setter
+    def light_group(self, value: int) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
@@ -4230,6 +4248,7 @@ class SunLight:
     volume_visible: it lights volumes
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
+    light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
     """
     def __init__(
         self,
@@ -4243,6 +4262,7 @@ class SunLight:
         volume_visible: bool = True,
         casts_shadows: bool = True,
         max_bounces: int = 1024,
+        light_group: int = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4299,6 +4319,13 @@ class SunLight:
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
     @property
+    def light_group(self) -> int:
+        """
+        its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+        """
+    @light_group.setter
+    def light_group(self, value: int) -> None: ...
+    @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
@@ -4335,6 +4362,7 @@ class AreaLight:
     volume_visible: it lights volumes
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
+    light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
     """
     def __init__(
         self,
@@ -4349,6 +4377,7 @@ class AreaLight:
         volume_visible: bool = True,
         casts_shadows: bool = True,
         max_bounces: int = 1024,
+        light_group: int = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4386,6 +4415,13 @@ class AreaLight:
         """
     @glossy_visible.setter
     def glossy_visible(self, value: bool) -> None: ...
+    @property
+    def light_group(self) -> int:
+        """
+        its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+        """
+    @light_group.setter
+    def light_group(self, value: int) -> None: ...
     @property
     def max_bounces(self) -> int:
         """
@@ -4725,11 +4761,13 @@ class Environment:
     What a ray sees that hits nothing.
 
     radiance: W / (m^2 sr), each direction alike; at least 0
+    light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
     layers: EnvironmentLayers, added up; reading gives a copy, assign to change them
     """
     def __init__(
         self,
         radiance: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (0.0, 0.0, 0.0),
+        light_group: int = 0,
         layers: collections.abc.Iterable[EnvironmentLayer] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -4740,6 +4778,13 @@ class Environment:
         """
     @layers.setter
     def layers(self, value: collections.abc.Iterable[EnvironmentLayer]) -> None: ...
+    @property
+    def light_group(self) -> int:
+        """
+        its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+        """
+    @light_group.setter
+    def light_group(self, value: int) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
@@ -6224,6 +6269,7 @@ class Instance:
     shadow_terminator_offset: cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
     shadow_terminator_shading_offset: how much light is dimmed that grazes the object; in [0, 1]
     pass_index: for the pass Object Index and materials that ask
+    light_group: the light of its materials is in the pass Light Group of this number too; 0: in none; in [0, 16]
     asset_name: what it is part of, for the passes CryptoAsset; none: `name`
     """
     def __init__(
@@ -6242,6 +6288,7 @@ class Instance:
         shadow_terminator_offset: float = 0.0,
         shadow_terminator_shading_offset: float = 0.0,
         pass_index: int = 0,
+        light_group: int = 0,
         asset_name: str = "",
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -6273,6 +6320,13 @@ class Instance:
         """
     @holdout.setter
     def holdout(self, value: bool) -> None: ...
+    @property
+    def light_group(self) -> int:
+        """
+        the light of its materials is in the pass Light Group of this number too; 0: in none; in [0, 16]
+        """
+    @light_group.setter
+    def light_group(self, value: int) -> None: ...
     @property
     def materials(self) -> list[int | None]:
         """

@@ -8,7 +8,7 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
@@ -31,28 +31,33 @@ def render_blend(
     samples: int | None = None,
     seed: int | None = None,
     threads: int = 0,
+    samples_from: int | None = None,
+    samples_to: int | None = None,
+    use_denoising: bool = False,
 ) -> None:
     """Renders the file's scene as Blender would: an .exr scene-linear in 32 bits, a .png with its view transform.
 
-    What is None (and `threads` 0) stays as the file has it. The output appears whole or not at all. Raises
-    BlenderError, and KeyboardInterrupt where that is why there is no picture.
+    What is None (or `threads` 0, `use_denoising` False) stays as the file has it. The output appears whole or not at
+    all. Raises BlenderError, and KeyboardInterrupt where that is why there is no picture.
     """
     if not blend.is_file():
         raise BlenderError(f"{blend}: no such file")
     bpy = _import_bpy()
-    with _registered_add_on(), _silent_stdout(), _interrupts_told_from_failures():
+    given = {
+        "samples": samples,
+        "seed": seed,
+        "threads": threads or None,
+        "samples_from": samples_from,
+        "samples_to": samples_to,
+    }
+    with _registered_add_on(given), _silent_stdout(), _interrupts_told_from_failures():
         _call(bpy.ops.wm.open_mainfile, filepath=str(blend.resolve()), load_ui=False)
         scene = bpy.context.scene
         scene.render.engine = ENGINE
         if frame is not None:
             scene.frame_set(frame)
-        if samples is not None:
-            scene.basicrt.samples = samples
-        if seed is not None:
-            scene.basicrt.seed = seed
-        if threads:
-            scene.render.threads_mode = "FIXED"
-            scene.render.threads = threads
+        if use_denoising:
+            scene.basicrt.use_denoising = True
         _set_file_format(bpy, scene.render.image_settings, output.suffix.lower())
         with replacing(output.resolve()) as temporary:
             scene.render.use_file_extension = False
@@ -121,16 +126,22 @@ def _interrupts_told_from_failures() -> Iterator[None]:
 
 
 @contextmanager
-def _registered_add_on() -> Iterator[None]:
-    """The engine in Blender. Blender 4.2 crashes and 4.5 hangs at exit where it is still registered then."""
+def _registered_add_on(given: Mapping[str, int | None]) -> Iterator[None]:
+    """The engine in Blender, with the settings that are given.
+
+    Blender 4.2 crashes and 4.5 hangs at exit where it is still registered then.
+    """
     try:
         add_on = importlib.import_module("basicrt.blender_addon")
     except ModuleNotFoundError as error:
         raise BlenderError(f"this installation carries no Blender add-on ({error})") from error
+    engine = importlib.import_module("basicrt.blender_addon.engine")
     add_on.register()
+    engine.BasicRTRenderEngine.given_overrides = engine.Overrides(**given)
     try:
         yield
     finally:
+        engine.BasicRTRenderEngine.given_overrides = None
         add_on.unregister()
 
 

@@ -13,7 +13,7 @@ import platform
 import sys
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -21,8 +21,9 @@ import numpy as np
 import basicrt
 
 from .compare import compare
+from .denoising import DENOISING_PASSES, denoised
 from .files import check_writable
-from .images import read_combined
+from .images import Picture, read_combined
 from .merging import RANGE_KEY, merge
 from .rendering import render_with_sums
 
@@ -37,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _show_scene_warnings()
     try:
         status: int = options.command(options)
-    except (CommandError, basicrt.SceneError, OSError) as error:
+    except (CommandError, basicrt.SceneError, basicrt.DenoiserError, OSError) as error:
         print(f"basicrt: {error}", file=sys.stderr)
         return 1
     except MemoryError:
@@ -69,10 +70,15 @@ def _make_parser() -> argparse.ArgumentParser:
         render.add_argument(
             f"--samples-{name}",
             type=int,
-            help=f"{what} this one, a multiple of 64: see `basicrt merge` (only for scene.json)",
+            help=f"{what} this one, a multiple of 64; of a scene.json for `basicrt merge`",
         )
     render.add_argument("--seed", type=int, help="another seed, other noise")
     render.add_argument("--threads", type=int, default=0, help="default: one per processor")
+    render.add_argument(
+        "--denoise",
+        action="store_true",
+        help="with Open Image Denoise; an .exr keeps the noisy picture as Noisy Image",
+    )
     render.add_argument("--override", help="JSON merged into a scene.json (RFC 7386)")
     render.add_argument("-q", "--quiet", action="store_true", help="show no progress")
 
@@ -119,6 +125,8 @@ def _render(options: argparse.Namespace) -> int:
         raise CommandError(f"--spp: must be at least 1, is {options.spp}")
     if options.threads < 0:
         raise CommandError(f"--threads: must be at least 0, is {options.threads}")
+    if options.denoise:
+        basicrt.check_denoiser()
     check_writable(output)
     begin = time.perf_counter()
     if options.scene.suffix.lower() == ".blend":
@@ -145,12 +153,19 @@ def _render_json(options: argparse.Namespace, output: Path) -> None:
     is_range = scene.settings.samples_from > 0 or scene.settings.samples_to > 0
     if is_range and output.suffix.lower() != ".exr":
         raise CommandError(f"{output}: a range of the samples needs an .exr file")
+    if is_range and options.denoise:
+        raise CommandError("--denoise: not of a range of the samples, but of all of them")
+    asked = list(scene.settings.passes)
+    if options.denoise:
+        scene.settings.passes = list(dict.fromkeys(("Combined", *asked, *DENOISING_PASSES)))
     line = None if options.quiet else _ProgressLine()
     try:
         pictures, sums = render_with_sums(scene, threads=options.threads, progress=line)
     finally:
         if line:
             line.end()
+    if options.denoise:
+        pictures = _denoised(scene.settings, asked, pictures, options.threads)
     if output.suffix.lower() == ".png":
         if "Combined" not in pictures:
             raise CommandError(f"{output}: a PNG needs the pass Combined")
@@ -167,12 +182,31 @@ def _render_json(options: argparse.Namespace, output: Path) -> None:
         basicrt.write_exr(output, pictures, metadata, sums)
 
 
+def _denoised(
+    settings: basicrt.RenderSettings,
+    asked: Sequence[str],
+    pictures: Mapping[str, Picture],
+    threads: int,
+) -> dict[str, Picture]:
+    """The passes that were asked for, and the noisy picture beside the one without noise."""
+    border = settings.border_x, settings.border_width, settings.border_y, settings.border_height
+    left, width, lower, height = border
+    return {
+        **{name: picture for name, picture in pictures.items() if name in asked},
+        **denoised(
+            pictures,
+            rows=slice(lower, lower + height if height else None),
+            columns=slice(left, left + width if width else None),
+            threads=threads,
+        ),
+    }
+
+
 def _render_blend(options: argparse.Namespace, output: Path) -> None:
     from .blender import BlenderError, render_blend
 
-    for name in ("override", "samples_from", "samples_to"):
-        if getattr(options, name) is not None:
-            raise CommandError(f"--{name.replace('_', '-')}: only for scene.json")
+    if options.override is not None:
+        raise CommandError("--override: only for scene.json")
     try:
         render_blend(
             options.scene,
@@ -181,6 +215,9 @@ def _render_blend(options: argparse.Namespace, output: Path) -> None:
             samples=options.spp,
             seed=options.seed,
             threads=options.threads,
+            samples_from=options.samples_from,
+            samples_to=options.samples_to,
+            use_denoising=options.denoise,
         )
     except BlenderError as error:
         raise CommandError(str(error)) from error
@@ -250,6 +287,7 @@ def _info(options: argparse.Namespace) -> int:
         ("OpenEXR", "reads and writes .exr"),
         ("PIL", "writes .png"),
         ("flip_evaluator", "FLIP in basicrt compare"),
+        ("pyoidn", "denoises"),
         ("bpy", "renders .blend"),
     ):
         found = "found" if importlib.util.find_spec(module) else "not installed"

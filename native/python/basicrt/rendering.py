@@ -3,12 +3,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import numpy.typing as npt
 
-from ._native import Progress, Scene, Session, passes
+from ._native import Progress, Scene, Session, Tile, passes
+
+
+class PictureBuffer:
+    """The pictures of some passes of a rectangle, made of its tiles; until they come, of the passes' backgrounds."""
+
+    def __init__(
+        self, names: Iterable[str], width: int, height: int, left: int = 0, lower: int = 0
+    ) -> None:
+        asked = set(names)
+        self._left, self._lower = left, lower
+        self.pictures: dict[str, npt.NDArray[np.float32]] = {
+            info.name: np.full((height, width, len(info.channels)), info.background, np.float32)
+            for info in passes()
+            if info.name in asked
+        }
+
+    def place(self, tile: Tile) -> tuple[slice, slice]:
+        """The rows and columns of a tile."""
+        x, y = tile.x - self._left, tile.y - self._lower
+        return slice(y, y + tile.height), slice(x, x + tile.width)
+
+    def add(self, tile: Tile) -> None:
+        """Copy a tile's pixels."""
+        for name in tile.passes:
+            self.pictures[name][self.place(tile)] = tile[name]
 
 
 def render(
@@ -38,26 +63,17 @@ def render_with_sums(
     """What render() returns, and, of a range of the samples, (height, width, words) sums for merging."""
     settings = scene.settings
     sums: npt.NDArray[np.uint32] | None = None
-    pictures = {
-        info.name: np.full(
-            (settings.height, settings.width, len(info.channels)), info.background, dtype=np.float32
-        )
-        for info in passes()
-        if info.name in settings.passes
-    }
+    buffer = PictureBuffer(settings.passes, settings.width, settings.height)
     with Session(scene, threads=threads, tile_size=tile_size) as session:
         for tile in session.tiles():
             if tile is not None:
-                rows = slice(tile.y, tile.y + tile.height)
-                columns = slice(tile.x, tile.x + tile.width)
-                for name in tile.passes:
-                    pictures[name][rows, columns] = tile[name]
+                buffer.add(tile)
                 part = tile.sums
                 if part is not None:
                     if sums is None:
                         shape = (settings.height, settings.width, part.shape[2])
                         sums = np.zeros(shape, np.uint32)
-                    sums[rows, columns] = part
+                    sums[buffer.place(tile)] = part
             if progress is not None:
                 progress(session.progress)
-    return pictures, sums
+    return buffer.pictures, sums

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "light/light_group.h"
+
 namespace basicrt {
 
 enum class Pass : std::uint8_t {
@@ -40,6 +42,8 @@ enum class Pass : std::uint8_t {
   crypto_object,
   crypto_material = crypto_object + 8,
   crypto_asset = crypto_material + 8,
+  // The first of those that users number: the light of each group of lights.
+  light_group = crypto_asset + 8,
 };
 
 // How a pixel's value comes from its samples'.
@@ -62,6 +66,11 @@ struct PassInfo {
 
 inline constexpr int matte_passes = 8;  // of each kind
 
+// Of a group's number, from 1 on.
+constexpr Pass light_group_pass(int group) {
+  return static_cast<Pass>(static_cast<int>(Pass::light_group) + group - 1);
+}
+
 namespace detail {
 constexpr PassInfo light(Pass pass, std::string_view name, std::optional<Pass> color = {}) {
   return {pass, name, "RGB", 0, PassRule::light, color};
@@ -70,6 +79,8 @@ constexpr PassInfo light(Pass pass, std::string_view name, std::optional<Pass> c
 constexpr PassInfo matte(Pass first, int index, std::string_view name) {
   return {static_cast<Pass>(static_cast<int>(first) + index), name, "rgba", 0, PassRule::matte};
 }
+// Numbers, not names: whoever names the groups knows which is which.
+constexpr PassInfo light_group(int group, std::string_view name) { return {light_group_pass(group), name, "RGB"}; }
 }  // namespace detail
 
 inline constexpr std::array passes = {
@@ -123,6 +134,22 @@ inline constexpr std::array passes = {
     detail::matte(Pass::crypto_asset, 5, "CryptoAsset05"),
     detail::matte(Pass::crypto_asset, 6, "CryptoAsset06"),
     detail::matte(Pass::crypto_asset, 7, "CryptoAsset07"),
+    detail::light_group(1, "Light Group 01"),
+    detail::light_group(2, "Light Group 02"),
+    detail::light_group(3, "Light Group 03"),
+    detail::light_group(4, "Light Group 04"),
+    detail::light_group(5, "Light Group 05"),
+    detail::light_group(6, "Light Group 06"),
+    detail::light_group(7, "Light Group 07"),
+    detail::light_group(8, "Light Group 08"),
+    detail::light_group(9, "Light Group 09"),
+    detail::light_group(10, "Light Group 10"),
+    detail::light_group(11, "Light Group 11"),
+    detail::light_group(12, "Light Group 12"),
+    detail::light_group(13, "Light Group 13"),
+    detail::light_group(14, "Light Group 14"),
+    detail::light_group(15, "Light Group 15"),
+    detail::light_group(16, "Light Group 16"),
 };
 static_assert([] {
   for (std::size_t i = 0; i < passes.size(); ++i)
@@ -134,18 +161,17 @@ constexpr const PassInfo& pass_info(Pass pass) { return passes[static_cast<std::
 
 // Where each chosen pass lies among a pixel's floats, one after another in the order of the table.
 struct PassLayout {
-  std::uint64_t mask = bit(Pass::combined);
+  std::array<bool, passes.size()> chosen = {true};  // by Pass
 
-  [[nodiscard]] static constexpr std::uint64_t bit(Pass pass) {
-    return std::uint64_t{1} << static_cast<unsigned>(pass);
-  }
-  [[nodiscard]] constexpr bool has(Pass pass) const { return (mask & bit(pass)) != 0; }
+  [[nodiscard]] static constexpr PassLayout none() { return {.chosen = {}}; }
+  [[nodiscard]] constexpr bool is_empty() const { return *this == none(); }
+  [[nodiscard]] constexpr bool has(Pass pass) const { return chosen[static_cast<std::size_t>(pass)]; }
   [[nodiscard]] constexpr bool has(PassRule rule) const {
     for (const PassInfo& info : passes)
       if (info.rule == rule && has(info.pass)) return true;
     return false;
   }
-  constexpr void enable(Pass pass) { mask |= bit(pass); }
+  constexpr void enable(Pass pass, bool is_chosen = true) { chosen[static_cast<std::size_t>(pass)] = is_chosen; }
   [[nodiscard]] constexpr int offset(Pass pass) const {
     int offset = 0;
     for (const PassInfo& info : passes) {
@@ -162,11 +188,10 @@ struct PassLayout {
   }
   constexpr bool operator==(const PassLayout&) const = default;
 };
-static_assert(passes.size() <= 64);
 
 // What the film must be told of each sample beside Combined, Depth and Normal to make the chosen passes.
 [[nodiscard]] constexpr PassLayout recorded_passes(PassLayout chosen) {
-  PassLayout recorded{.mask = 0};
+  PassLayout recorded = PassLayout::none();
   for (const PassInfo& info : passes) {
     if (!chosen.has(info.pass)) continue;
     const bool is_filmed = info.rule != PassRule::own && info.rule != PassRule::matte;

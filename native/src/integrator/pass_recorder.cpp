@@ -16,6 +16,12 @@ constexpr std::array light_passes = {Pass::diffuse_direct,  Pass::diffuse_indire
                                      Pass::volume_direct,   Pass::volume_indirect,     Pass::emission,
                                      Pass::environment};
 
+bool has_light_group(const PassValues& values) {
+  for (int group = 1; group <= light_groups; ++group)
+    if (values.has(light_group_pass(group))) return true;
+  return false;
+}
+
 const Mesh* mesh_of(const PreparedScene& scene, const SurfacePoint& point) {
   return std::get_if<Mesh>(&scene.shapes[scene.instances[point.instance].shape]);
 }
@@ -61,8 +67,9 @@ PassRecorder::PassRecorder(const PreparedScene& scene)
     : scene_(scene),
       values_(scene.settings.passes),
       has_mattes_(scene.settings.passes.has(PassRule::matte)),
-      is_active_(has_mattes_ || recorded_passes(scene.settings.passes).mask != 0),
-      records_light_(std::ranges::any_of(light_passes, [&](Pass pass) { return values_.has(pass); })) {}
+      is_active_(has_mattes_ || !recorded_passes(scene.settings.passes).is_empty()),
+      records_light_(std::ranges::any_of(light_passes, [&](Pass pass) { return values_.has(pass); }) ||
+                     has_light_group(values_)) {}
 
 void PassRecorder::begin(std::size_t samples) {
   if (!is_active_) return;
@@ -124,11 +131,15 @@ void PassRecorder::note_volume_scattering(std::uint32_t sample) {
   if (records_light_) shares_[sample] = light_shares(ScatterKind::volume);
 }
 
-void PassRecorder::add_found_light(std::uint32_t sample, int scatterings, Color radiance, bool is_environment) {
-  if (scatterings == 0)
-    values_.add(sample, is_environment ? Pass::environment : Pass::emission, radiance * scene_.settings.exposure);
-  else
-    add(sample, {shares_[sample], scatterings == 1}, radiance);
+void PassRecorder::add_found_light(std::uint32_t sample, int scatterings, Color radiance, int light_group,
+                                   bool is_environment) {
+  if (scatterings > 0) return add(sample, {shares_[sample], scatterings == 1, light_group}, radiance);
+  values_.add(sample, is_environment ? Pass::environment : Pass::emission, radiance * scene_.settings.exposure);
+  add_to_group(sample, light_group, radiance * scene_.settings.exposure);
+}
+
+void PassRecorder::add_to_group(std::uint32_t sample, int light_group, Color radiance) {
+  if (light_group > 0) values_.add(sample, light_group_pass(light_group), radiance);
 }
 
 void PassRecorder::add_sampled_light(std::uint32_t sample, std::uint32_t filing, Color radiance) {
@@ -137,6 +148,7 @@ void PassRecorder::add_sampled_light(std::uint32_t sample, std::uint32_t filing,
 
 void PassRecorder::add(std::uint32_t sample, const Filing& filing, Color radiance) {
   radiance *= scene_.settings.exposure;
+  add_to_group(sample, filing.light_group, radiance);
   const auto add_share = [&](Pass direct, Pass indirect, Color share) {
     values_.add(sample, filing.is_direct ? direct : indirect, radiance * share);
   };

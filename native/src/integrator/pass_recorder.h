@@ -44,14 +44,14 @@ class PassRecorder {
   void note_scattering(std::uint32_t sample, const Bsdf& bsdf, Vec3f wo, const BsdfSample& scattered);
   void note_volume_scattering(std::uint32_t sample);
 
-  // Light that a path ran into after so many scatterings.
-  void add_found_light(std::uint32_t sample, int scatterings, Color radiance, bool is_environment);
-  // Where light goes that a path with so many scatterings sampled; `shares_here` is called if this is its first surface.
+  // Light of a group that a path ran into after so many scatterings.
+  void add_found_light(std::uint32_t sample, int scatterings, Color radiance, int light_group, bool is_environment);
+  // Where light of a group goes that a path with so many scatterings sampled; `shares_here` is called if this is its first surface.
   template <class Shares>
-  [[nodiscard]] std::uint32_t file(std::uint32_t sample, int scatterings, Shares&& shares_here) {
+  [[nodiscard]] std::uint32_t file(std::uint32_t sample, int scatterings, int light_group, Shares&& shares_here) {
     if (!records_light_) return unfiled;
     const bool is_direct = scatterings == 0;
-    filings_.push_back({is_direct ? shares_here() : shares_[sample], is_direct});
+    filings_.push_back({is_direct ? shares_here() : shares_[sample], is_direct, light_group});
     return static_cast<std::uint32_t>(filings_.size() - 1);
   }
   void add_sampled_light(std::uint32_t sample, std::uint32_t filing, Color radiance);
@@ -62,7 +62,9 @@ class PassRecorder {
   struct Filing {
     LightShares shares;
     bool is_direct;
+    int light_group;
   };
+  void add_to_group(std::uint32_t sample, int light_group, Color radiance);
   void add(std::uint32_t sample, const Filing& filing, Color radiance);
 
   const PreparedScene& scene_;

@@ -183,11 +183,12 @@ void PathIntegrator::record_surface(const Path& path, const Ray& ray, const Surf
 }
 
 // Light that the path ran into after its last scattering: direct light is what it finds after the first, or none.
-void PathIntegrator::add_light(const Path& path, Color radiance, PixelSample& sample, bool is_environment) {
+void PathIntegrator::add_light(const Path& path, Color radiance, int light_group, PixelSample& sample,
+                               bool is_environment) {
   const RenderSettings& settings = scene_.settings;
   const Color clamped = clamp_light(radiance, path.bounces.total > 1 ? settings.clamp_indirect : settings.clamp_direct);
   sum_of(path.destination, sample) += clamped;
-  if (is_filed(path)) recorder_.add_found_light(path.sample, path.bounces.total, clamped, is_environment);
+  if (is_filed(path)) recorder_.add_found_light(path.sample, path.bounces.total, clamped, light_group, is_environment);
 }
 
 void PathIntegrator::add_connection(const Connection& connection, PixelSample& sample) {
@@ -209,7 +210,7 @@ void PathIntegrator::gather_distant_lamps(const Path& path, const Ray& ray, Pixe
 
 void PathIntegrator::gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample) {
   const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
-  add_light(path, path.throughput * hit.radiance * weight, sample);
+  add_light(path, path.throughput * hit.radiance * weight, hit.light_group, sample);
 }
 
 void PathIntegrator::gather_environment(const Path& path, const Ray& ray, PixelSample& sample) {
@@ -221,10 +222,10 @@ void PathIntegrator::gather_environment(const Path& path, const Ray& ray, PixelS
   if (path.is_specular) recorder_.record_glow(path.sample, path.throughput * radiance);
   const float weight =
       path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_environment(ray.direction));
-  if (is_hole)  // the pass has what the picture has not
-    recorder_.add_found_light(path.sample, path.bounces.total, path.throughput * radiance * weight, true);
+  if (is_hole)  // the pass Environment has what the picture and its groups have not
+    recorder_.add_found_light(path.sample, path.bounces.total, path.throughput * radiance * weight, 0, true);
   else
-    add_light(path, path.throughput * radiance * weight, sample, true);
+    add_light(path, path.throughput * radiance * weight, scene_.lights.environment_light_group(), sample, true);
 }
 
 void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
@@ -233,7 +234,7 @@ void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const Sur
   const float weight =
       path.is_specular ? 1
                        : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, {ray.origin, path.lit_side}));
-  add_light(path, path.throughput * emission * weight, sample);
+  add_light(path, path.throughput * emission * weight, scene_.instances[point.instance].light_group, sample);
 }
 
 // Holdouts are holes, whether or not the film is transparent elsewhere.
@@ -263,7 +264,7 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
   const RenderSettings& settings = scene_.settings;
   const float most = path.bounces.total > 0 ? settings.clamp_indirect : settings.clamp_direct;
   const std::uint32_t filing =
-      is_filed(path) ? recorder_.file(path.sample, path.bounces.total,
+      is_filed(path) ? recorder_.file(path.sample, path.bounces.total, light->light_group,
                                       [&] { return light_shares(bsdf, -ray.direction, light->wi, light->kinds); })
                      : PassRecorder::unfiled;
   const Connection connection{path.sample, radiance, path.bounces, most, path.destination, filing};

@@ -72,7 +72,7 @@ class PathIntegrator final : public Integrator {
   static void set_bounces(ShadingContext& context, const Bounces& bounces);
   [[nodiscard]] static Color& sum_of(Destination destination, PixelSample& sample);
   static void cut_hole(const Path& path, Color share, PixelSample& sample);
-  void add_light(const Path& path, Color radiance, PixelSample& sample, bool is_environment = false);
+  void add_light(const Path& path, Color radiance, int light_group, PixelSample& sample, bool is_environment = false);
   void gather_lamps(const Path& path, const Ray& ray, PixelSample& sample);
   void gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample);
   void gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample);

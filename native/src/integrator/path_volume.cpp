@@ -198,7 +198,7 @@ PathIntegrator::Passage PathIntegrator::pass_media(Path& path, Ray& ray, const H
     note_first_hit(path.sample, point, sample);
   gather_lamps_in_media(path, segment, media.extinction, sample);
   if (!is_black(media.emission))
-    add_light(path, path.throughput * media.emission * integrated_transmittance(media.extinction, length), sample);
+    add_light(path, path.throughput * media.emission * integrated_transmittance(media.extinction, length), 0, sample);
 
   const bool scatters = !path.is_last && !is_black(media.scattering);
   const std::optional<Color> shares = scatters ? channel_shares(path.throughput) : std::nullopt;
@@ -246,9 +246,9 @@ void PathIntegrator::sample_lights_in_media(Path& path, const Ray& ray, const Me
   if (is_black(radiance) || !survives_light_roulette(path, radiance)) return;
   const RenderSettings& settings = scene_.settings;
   const float most = path.bounces.total > 0 ? settings.clamp_indirect : settings.clamp_direct;
-  const std::uint32_t filing =
-      is_filed(path) ? recorder_.file(path.sample, path.bounces.total, [] { return light_shares(ScatterKind::volume); })
-                     : PassRecorder::unfiled;
+  const std::uint32_t filing = is_filed(path) ? recorder_.file(path.sample, path.bounces.total, light->light_group,
+                                                               [] { return light_shares(ScatterKind::volume); })
+                                              : PassRecorder::unfiled;
   const Connection connection{path.sample, radiance, path.bounces, most, path.destination, filing};
   if (!light->casts_shadows) return add_connection(connection, sample);
   const bool is_unlit = path.destination == Destination::catcher_unlit;

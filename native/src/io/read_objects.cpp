@@ -11,7 +11,7 @@ namespace basicrt {
 namespace {
 
 // "shape", then what every object may have.
-constexpr std::array<std::string_view, 17> shape_object_keys = {"shape",
+constexpr std::array<std::string_view, 18> shape_object_keys = {"shape",
                                                                 "name",
                                                                 "material_name",
                                                                 "materials",
@@ -27,6 +27,7 @@ constexpr std::array<std::string_view, 17> shape_object_keys = {"shape",
                                                                 "shadow_terminator_offset",
                                                                 "shadow_terminator_shading_offset",
                                                                 "pass_index",
+                                                                "light_group",
                                                                 "asset_name"};
 constexpr auto object_keys = std::span(shape_object_keys).subspan(1);
 
@@ -115,6 +116,7 @@ void read_object(SceneReader& reader, const JsonValue& object) {
   read_optional(object, "shadow_terminator_offset", instance.shadow_terminator_offset);
   read_optional(object, "shadow_terminator_shading_offset", instance.shadow_terminator_shading_offset);
   read_optional(object, "pass_index", instance.pass_index);
+  read_optional(object, "light_group", instance.light_group);
   read_optional(object, "asset_name", instance.asset_name);
   if (const auto light = object.find("light")) read_area_light(reader, *light, instance.materials);
   if (is_empty(reader.scene.shapes[instance.shape]))

@@ -186,6 +186,7 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
   if (instance.shadow_terminator_shading_offset != 0)
     json["shadow_terminator_shading_offset"] = write(instance.shadow_terminator_shading_offset);
   if (instance.pass_index != 0) json["pass_index"] = instance.pass_index;
+  if (instance.light_group != 0) json["light_group"] = instance.light_group;
   if (!instance.asset_name.empty()) json["asset_name"] = instance.asset_name;
   return json;
 }

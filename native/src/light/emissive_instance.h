@@ -14,6 +14,7 @@ namespace basicrt {
 // The pointer must outlive whatever is made from this.
 struct EmissiveInstance {
   std::uint32_t instance = 0;
+  int light_group = 0;
   const Shape* shape = nullptr;
   TransformD object_to_world;
   TransformD world_to_object;

@@ -12,6 +12,7 @@
 #include "base/describe.h"
 #include "image/environment_projection.h"
 #include "image/image_lookup.h"
+#include "light/light_group.h"
 #include "light/sky.h"
 #include "math/color.h"
 #include "math/transform.h"
@@ -46,8 +47,12 @@ struct EnvironmentLayer {
 struct Environment {
   Color radiance{0.0f};
   std::vector<EnvironmentLayer> layers;
+  int light_group = 0;
   static constexpr auto fields() {
-    return std::tuple{field("radiance", &Environment::radiance, "W / (m^2 sr), each direction alike", at_least(0))};
+    return std::tuple{
+        field("radiance", &Environment::radiance, "W / (m^2 sr), each direction alike", at_least(0)),
+        field("light_group", &Environment::light_group,
+              "its light is in the pass Light Group of this number too; 0: in none", within(0, light_groups))};
   }
 };
 

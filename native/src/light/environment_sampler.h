@@ -20,6 +20,7 @@ class EnvironmentSampler {
   explicit EnvironmentSampler(const Environment& environment, int threads = 0);
 
   [[nodiscard]] bool is_empty() const { return !(choices_.total() > 0); }  // nothing to sample
+  [[nodiscard]] int light_group() const { return environment_.light_group; }
   // Watts that the pictures send through a sphere.
   [[nodiscard]] double power(float scene_radius) const;
 

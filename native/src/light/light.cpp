@@ -40,7 +40,10 @@ std::optional<LightSample> sample_light(const Light& light, Vec3f position, Vec2
   std::optional<LightSample> sample = std::visit(
       [&](const auto& lamp) {
         std::optional<LightSample> made = sample_lamp(lamp, position, u);
-        if (made) made->casts_shadows = lamp.casts_shadows, made->max_bounces = lamp.max_bounces;
+        if (!made) return made;
+        made->casts_shadows = lamp.casts_shadows;
+        made->max_bounces = lamp.max_bounces;
+        made->light_group = lamp.light_group;
         return made;
       },
       light);
@@ -50,7 +53,13 @@ std::optional<LightSample> sample_light(const Light& light, Vec3f position, Vec2
 }
 
 std::optional<LightHit> intersect_light(const Light& light, const Ray& ray) {
-  std::optional<LightHit> hit = std::visit([&](const auto& lamp) { return intersect_lamp(lamp, ray); }, light);
+  std::optional<LightHit> hit = std::visit(
+      [&](const auto& lamp) {
+        std::optional<LightHit> met = intersect_lamp(lamp, ray);
+        if (met) met->light_group = lamp.light_group;
+        return met;
+      },
+      light);
   // As for instances: a lamp is seen when any of the ray's kinds sees it.
   if (hit && !(is_usable(hit->radiance, hit->pdf) && (visibility(light) & ray.kinds) != 0)) hit.reset();
   return hit;

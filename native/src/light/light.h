@@ -10,6 +10,7 @@
 
 #include "base/describe.h"
 #include "light/light_bounds.h"
+#include "light/light_group.h"
 #include "math/color.h"
 #include "math/ray.h"
 #include "math/transform.h"
@@ -26,7 +27,9 @@ constexpr auto lamp_switches() {
       field("transmission_visible", &Lamp::is_transmission_visible, "it lights through glass, and is seen through it"),
       field("volume_visible", &Lamp::is_volume_visible, "it lights volumes"),
       field("casts_shadows", &Lamp::casts_shadows, "what is in the way dims its light"),
-      field("max_bounces", &Lamp::max_bounces, "scatterings behind which surfaces aren't lit by it", within(0, 1024))};
+      field("max_bounces", &Lamp::max_bounces, "scatterings behind which surfaces aren't lit by it", within(0, 1024)),
+      field("light_group", &Lamp::light_group, "its light is in the pass Light Group of this number too; 0: in none",
+            within(0, light_groups))};
 }
 
 // A sphere of the given radius, or a point where that is 0. With soft falloff a disc that faces the lit point stands
@@ -40,6 +43,7 @@ struct PointLight {
   bool is_transmission_visible = true, is_volume_visible = true;
   bool casts_shadows = true;
   int max_bounces = 1024;
+  int light_group = 0;
   static constexpr std::string_view kind = "point";
   static constexpr auto fields() {
     return std::tuple_cat(
@@ -62,6 +66,7 @@ struct SpotLight {
   bool is_transmission_visible = true, is_volume_visible = true;
   bool casts_shadows = true;
   int max_bounces = 1024;
+  int light_group = 0;
   static constexpr std::string_view kind = "spot";
   static constexpr auto fields() {
     return std::tuple_cat(
@@ -83,6 +88,7 @@ struct SunLight {
   bool is_transmission_visible = true, is_volume_visible = true;
   bool casts_shadows = true;
   int max_bounces = 1024;
+  int light_group = 0;
   static constexpr std::string_view kind = "sun";
   static constexpr auto fields() {
     return std::tuple_cat(
@@ -103,6 +109,7 @@ struct AreaLight {
   bool is_transmission_visible = true, is_volume_visible = true;
   bool casts_shadows = true;
   int max_bounces = 1024;
+  int light_group = 0;
   static constexpr std::string_view kind = "area";
   static constexpr auto fields() {
     return std::tuple_cat(
@@ -127,6 +134,7 @@ struct LightSample {
   std::uint32_t kinds = ray_all;
   bool casts_shadows = true;
   int max_bounces = 1024;
+  int light_group = 0;
 };
 
 // Light that a ray runs into.
@@ -134,6 +142,7 @@ struct LightHit {
   float t = infinity;
   Color radiance{0.0f};
   float pdf = 0;  // that sample_light() gives this direction, over solid angle
+  int light_group = 0;
 };
 
 // A path that starts at the light.

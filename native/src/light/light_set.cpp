@@ -62,6 +62,7 @@ void LightSet::add_emitter(const EmissiveInstance& instance) {
   const auto index = static_cast<std::uint32_t>(emitters_.size());
   const auto source = static_cast<std::uint32_t>(lamps_.size()) + index;
   emitter_of_instance_[instance.instance] = index;
+  emitter_groups_.push_back(instance.light_group);
   std::visit(Overloaded{[&](const Mesh& mesh) {
                           const MeshEmitter emitter(instance, mesh);
                           picker_.add_source(emitter.triangle_count());
@@ -87,6 +88,7 @@ std::optional<LightSample> LightSet::sample(const LitPoint& point, float choice,
       is_environment ? environment_.sample(rest, u) : sample_lamp_or_emitter(point, rest, u, time);
   if (!sample) return std::nullopt;
   sample->pdf *= share;
+  if (is_environment) sample->light_group = environment_.light_group();
   if (!(sample->pdf > 0 && sample->pdf < infinity) || is_black(sample->radiance)) return std::nullopt;
   return sample;
 }
@@ -103,6 +105,7 @@ std::optional<LightSample> LightSet::sample_lamp_or_emitter(const LitPoint& poin
         std::visit(Overloaded{[&](const MeshEmitter& mesh) { return mesh.sample(primitive, point.position, u, time); },
                               [&](const SphereEmitter& sphere) { return sphere.sample(point.position, u, time); }},
                    emitters_[light.source - lamps_.size()]);
+    if (sample) sample->light_group = emitter_groups_[light.source - lamps_.size()];
   }
   if (sample) sample->pdf *= probability;
   return sample;

@@ -56,6 +56,7 @@ class LightSet {
   [[nodiscard]] Color environment_radiance(Vec3f direction, bool is_camera_ray) const {
     return environment_.eval(direction, is_camera_ray);
   }
+  [[nodiscard]] int environment_light_group() const { return environment_.light_group(); }
   // Nothing to sample.
   [[nodiscard]] bool is_empty() const { return picker_.size() == 0 && environment_share_ == 0; }
 
@@ -80,6 +81,7 @@ class LightSet {
   std::vector<Light> lamps_;
   std::vector<std::uint32_t> lamps_with_size_, distant_lamps_with_size_;  // those that rays can run into
   std::vector<Emitter> emitters_;
+  std::vector<int> emitter_groups_;                 // of each emitter
   std::vector<std::uint32_t> emitter_of_instance_;  // index into emitters_, or no_emitter
   LightPicker picker_;                              // its sources are the lamps first, then the emitters
   EnvironmentSampler environment_;

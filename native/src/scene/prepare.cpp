@@ -157,6 +157,7 @@ void find_volumes(const Scene& scene, PreparedScene& prepared) {
 std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::uint32_t index) {
   const PreparedScene::PreparedInstance& instance = scene.instances[index];
   EmissiveInstance result{.instance = index,
+                          .light_group = instance.light_group,
                           .shape = &scene.shapes[instance.shape],
                           .object_to_world = instance.placement.object_to_world,
                           .world_to_object = instance.placement.world_to_object,
@@ -220,6 +221,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
                                   .shadow_terminator_offset = shadow_terminator_offset(scene, instance),
                                   .shadow_terminator_shading_offset = instance.shadow_terminator_shading_offset,
                                   .pass_index = instance.pass_index,
+                                  .light_group = instance.light_group,
                                   .object_id = matte_id(instance.name),
                                   .asset_id = matte_id(asset_name(instance))});
     PreparedScene::PreparedInstance& added = prepared.instances.back();

@@ -32,6 +32,7 @@ struct PreparedScene {
     bool is_shadow_catcher = false;
     float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
     int pass_index = 0;
+    int light_group = 0;
     std::uint32_t object_id = 0, asset_id = 0;  // of mattes
   };
 

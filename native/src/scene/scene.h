@@ -35,6 +35,7 @@ struct Instance {
   // See shadow_terminator.h, both in [0, 1].
   float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
   int pass_index = 0;      // the pass Object Index
+  int light_group = 0;     // of what its materials emit
   std::string asset_name;  // what it is part of, for the passes CryptoAsset; none: `name`
 };
 

@@ -207,6 +207,7 @@ void validate_instances(const Scene& scene) {
       if (const Id<Material> id = instance.materials[slot]; id.is_valid())
         validate_id(id, scene.materials, item + "." + entry("materials", slot), "materials");
     const Bounds3f& local = shape_bounds[instance.shape.index];
+    validate_field(instance.light_group, within(0, light_groups), item, "light_group");
     validate_field(instance.shadow_terminator_offset, within(0, 1), item, "shadow_terminator_offset");
     validate_field(instance.shadow_terminator_shading_offset, within(0, 1), item, "shadow_terminator_shading_offset");
     validate_transform(instance.object_to_world, item + ".transform");
@@ -284,7 +285,6 @@ void validate_settings(const RenderSettings& settings) {
   validate_border(settings);
   validate_shutter_curve(settings.shutter_curve);
   validate_sample_range(settings);
-  if (settings.passes.mask >> passes.size()) throw SceneError("settings.passes", "names a pass that does not exist");
   if (!settings.passes.has(Pass::combined)) throw SceneError("settings.passes", "Combined must be among them");
 }
 

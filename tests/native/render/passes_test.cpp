@@ -2,6 +2,7 @@
 // Passes of whole pictures: light passes put together are the picture, whatever is in it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -128,6 +129,30 @@ TEST(Passes, are_the_same_bytes_for_any_number_of_threads_and_any_tile_size) {
   }
 }
 
+TEST(Passes, the_light_of_all_groups_is_the_picture) {
+  Scene scene = make_scene();
+  PointLight lamp = std::get<PointLight>(scene.lights[0]);
+  lamp.light_group = 1;
+  scene.lights.set({0}, lamp);
+  scene.environment.light_group = 2;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    Instance instance = scene.instances[i];
+    instance.light_group = light_groups;
+    scene.instances.set({i}, instance);
+  }
+  const Film film = render_scene(scene);
+  const auto& picture = film.values(Pass::combined);
+  std::vector<float> total(picture.size() / 4 * 3);
+  for (const int group : {1, 2, light_groups}) {
+    const auto& light = film.values(light_group_pass(group));
+    EXPECT_GT(std::ranges::max(light), 0.01f) << group;
+    for (std::size_t i = 0; i < total.size(); ++i) total[i] += light[i];
+  }
+  for (std::size_t i = 0; i < total.size(); ++i)
+    ASSERT_NEAR(total[i], picture[i / 3 * 4 + i % 3], 1e-5f * std::max(1.0f, total[i]));
+  EXPECT_EQ(std::ranges::max(film.values(light_group_pass(3))), 0);
+}
+
 TEST(Passes, asking_for_them_changes_no_picture) {
   Scene scene = make_scene();
   const Film film = render_scene(scene);
@@ -164,7 +189,7 @@ TEST(Passes, ranges_of_samples_render_what_they_have_of_the_whole) {
   Scene scene = make_scene();
   for (const Pass pass : not_compared)
     for (int i = 0; i < matte_passes; ++i)
-      scene.settings.passes.mask &= ~PassLayout::bit(static_cast<Pass>(static_cast<int>(pass) + i));
+      scene.settings.passes.enable(static_cast<Pass>(static_cast<int>(pass) + i), false);
   scene.settings.samples = 200;
   const Film whole = render_scene(scene, {.threads = 2, .tile_size = 13});
   Report report;

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What BasicRT's own panels have in common."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..engine import BasicRTRenderEngine
+
+
+class EnginePanel:
+    """A panel of the properties editor, shown for this engine."""
+
+    bl_space_type: Any = "PROPERTIES"
+    bl_region_type: Any = "WINDOW"
+    bl_context = "render"
+    COMPAT_ENGINES = {BasicRTRenderEngine.bl_idname}
+    layout: Any
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Blender's callback."""
+        return context.engine in cls.COMPAT_ENGINES
+
+    def column(self) -> Any:
+        """Where properties go, in Blender's two-column style."""
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        return self.layout.column()
