@@ -234,8 +234,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
                       .visibility = traced_visibility(instance),
                       .motion = added.motion});
     const auto* mesh = std::get_if<Mesh>(&prepared.shapes[instance.shape.index]);
-    prepared.has_moving_shapes =
-        prepared.has_moving_shapes || !added.motion.empty() || (mesh && mesh->is_deforming());
+    prepared.has_moving_shapes = prepared.has_moving_shapes || !added.motion.empty() || (mesh && mesh->is_deforming());
   }
   find_volumes(scene, prepared);
   for (const PreparedMaterial& prepared_material : prepared.materials)
