@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import warnings
 import weakref
 from typing import Any
 
@@ -66,15 +65,16 @@ class Viewport:
             if picture is not None:
                 self._texture.set(picture)
         region: Any = context.region
-        self._texture.draw(self._engine(), depsgraph.scene, region.width, region.height)
+        b_scene: Any = depsgraph.scene
+        self._texture.draw(self._engine(), b_scene, region.width, region.height)
         self._show_status()
         self._poll_later()
 
     def _read_changes(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """From Blender's data to the session's scene, unless that is busy with it."""
         if self._session is None:
-            b_render: Any = depsgraph.scene.render
-            self._session = basicrt.ViewSession(b_render.threads)
+            b_scene: Any = depsgraph.scene
+            self._session = basicrt.ViewSession(b_scene.render.threads)
         if self._session.status.is_preparing:
             self._poll_later()
             return
@@ -98,7 +98,8 @@ class Viewport:
         if shown != self._shown:
             self._shown = shown
             self._session.set_view(camera, settings, pass_name)
-        self._session.set_paused(settings_of(depsgraph.scene).preview_pause)
+        b_scene: Any = depsgraph.scene
+        self._session.set_paused(settings_of(b_scene).preview_pause)
 
     def _show_status(self) -> None:
         """The text in the corner of the viewport."""
@@ -128,7 +129,8 @@ class Viewport:
 
     def _poll(self) -> float | None:
         """Blender's timer: has the viewport drawn where there is something new."""
-        engine, session = self._engine(), self._session
+        engine: Any = self._engine()
+        session: Any = self._session
         try:
             if engine is None or session is None:
                 self._is_polling = False

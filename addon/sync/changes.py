@@ -73,9 +73,12 @@ def history() -> int:
     return _History.steps
 
 
-@bpy.app.handlers.persistent  # the next file wants it too
 def _count_step(*_args: Any) -> None:
     _History.steps += 1
+
+
+_persistent: Any = bpy.app.handlers.persistent
+_persistent(_count_step)  # the next file wants it too
 
 
 def _handlers() -> tuple[list[Any], ...]:

@@ -55,18 +55,19 @@ def export(
     shutter = motion.shutter(b_scene, b_view_layer)
     frame = b_scene.frame_current_final
     b_original: Any = b_camera.original
+    b_evaluated_scene: Any = depsgraph.scene_eval
     sync = SceneSync(report)
     if shutter is None or frame_set is None:
-        sync.update(depsgraph, camera.convert(b_camera, depsgraph.scene_eval.render, report))
+        sync.update(depsgraph, camera.convert(b_camera, b_evaluated_scene.render, report))
         return sync.exported
     movement = MotionExport(sync.exported.scene, shutter, report)
     try:
         if shutter.center != frame:
             set_frame(frame_set, shutter.center)
         b_evaluated = b_original.evaluated_get(depsgraph)
-        b_render = depsgraph.scene_eval.render
+        b_evaluated_scene = depsgraph.scene_eval
         sync.follow(movement)
-        sync.update(depsgraph, camera.convert(b_evaluated, b_render, report))
+        sync.update(depsgraph, camera.convert(b_evaluated, b_evaluated_scene.render, report))
         movement.follow(depsgraph, b_original, frame_set)
     finally:
         set_frame(frame_set, frame)
@@ -145,9 +146,8 @@ class SceneSync:
         changes.is_selection |= changes.is_everything or changes.has_renamed or not is_old_layout
         self._basis = basis
         b_scene: Any = depsgraph.scene_eval
-        settings.convert(
-            b_scene, depsgraph.view_layer_eval, self.exported.scene.settings, self._report
-        )
+        b_view_layer: Any = depsgraph.view_layer_eval
+        settings.convert(b_scene, b_view_layer, self.exported.scene.settings, self._report)
         self.exported.scene.camera = view_camera
 
     def _update(
@@ -159,9 +159,9 @@ class SceneSync:
     ) -> None:
         """Convert what has changed."""
         b_scene: Any = depsgraph.scene_eval
-        b_world = compat.view_layer_world(b_scene, depsgraph.view_layer_eval)
-        groups = light_groups.numbers(depsgraph.view_layer)
-        group = light_groups.number_of(b_world, groups)
+        b_view_layer: Any = depsgraph.view_layer_eval
+        b_world = compat.view_layer_world(b_scene, b_view_layer)
+        group = light_groups.number_of(b_world, light_groups.numbers(b_view_layer))
         chosen = (uid(b_world) if b_world else 0, environment is not None, group)
         if changes.has_world or chosen != self._world:
             self._convert_world(b_world, environment, group)
@@ -199,8 +199,9 @@ class SceneSync:
 def _basis(depsgraph: bpy.types.Depsgraph, view_camera: camera.Camera) -> Any:
     """What can't change without everything changing."""
     b_scene: Any = depsgraph.scene
+    b_view_layer: Any = depsgraph.view_layer
     is_flat = isinstance(view_camera, (basicrt.PerspectiveCamera, basicrt.OrthographicCamera))
-    return uid(b_scene), depsgraph.view_layer.name, history(), is_flat
+    return uid(b_scene), b_view_layer.name, history(), is_flat
 
 
 def _layout(depsgraph: bpy.types.Depsgraph) -> Iterator[Any]:

@@ -13,6 +13,7 @@ import typing
 
 __all__: list[str] = [
     "AddShader",
+    "AmbientOcclusionOperation",
     "AreaLight",
     "AttributeOperation",
     "BrickOperation",
@@ -96,6 +97,9 @@ __all__: list[str] = [
     "TranslucentShader",
     "TransparentShader",
     "VectorMathOperation",
+    "ViewPicture",
+    "ViewSession",
+    "ViewStatus",
     "VolumeShader",
     "VoronoiOperation",
     "WaveOperation",
@@ -1481,6 +1485,67 @@ class TangentOperation:
         self,
         value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
+
+class AmbientOcclusionOperation:
+    """
+    How open the surroundings are.
+
+    distance: how far rays go, metres; 0 gives 1
+    normal: in world space, on the viewer's side; zero is the surface's own
+    samples: rays at each point; in [1, 128]
+    inside: rays go below the surface instead of above
+    only_local: rays meet the object itself alone
+    """
+    def __init__(
+        self,
+        distance: float | TextureRef | OperationRef = 1.0,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        samples: int = 16,
+        inside: bool = False,
+        only_local: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def distance(self) -> float | TextureRef | OperationRef:
+        """
+        how far rays go, metres; 0 gives 1
+        """
+    @distance.setter
+    def distance(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def inside(self) -> bool:
+        """
+        rays go below the surface instead of above
+        """
+    @inside.setter
+    def inside(self, value: bool) -> None: ...
+    @property
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in world space, on the viewer's side; zero is the surface's own
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def only_local(self) -> bool:
+        """
+        rays meet the object itself alone
+        """
+    @only_local.setter
+    def only_local(self, value: bool) -> None: ...
+    @property
+    def samples(self) -> int:
+        """
+        rays at each point; in [1, 128]
+        """
+    @samples.setter
+    def samples(self, value: int) -> None: ...
 
 class WireframeOperation:
     """
@@ -3885,7 +3950,8 @@ class Material:
         | NoiseOperation
         | WhiteNoiseOperation
         | VoronoiOperation
-        | GaborOperation,
+        | GaborOperation
+        | AmbientOcclusionOperation,
     ) -> OperationRef:
         """
         Appends an operation, which refers only to those before it, and returns what stands for its value.
@@ -3950,6 +4016,7 @@ class Material:
         | WhiteNoiseOperation
         | VoronoiOperation
         | GaborOperation
+        | AmbientOcclusionOperation
     ]:
         """
         Copies of the operations.
@@ -6421,6 +6488,10 @@ class ShapeTable:
         """
         Adds an entry and returns its index.
         """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
+        """
 
 class TextureTable:
     """
@@ -6442,6 +6513,10 @@ class TextureTable:
         """
         Adds an entry and returns its index.
         """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
+        """
 
 class MaterialTable:
     """
@@ -6457,6 +6532,10 @@ class MaterialTable:
         """
         Adds an entry and returns its index.
         """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
+        """
 
 class InstanceTable:
     """
@@ -6471,6 +6550,10 @@ class InstanceTable:
     def append(self, value: Instance) -> int:
         """
         Adds an entry and returns its index.
+        """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
         """
 
 class LightTable:
@@ -6492,6 +6575,10 @@ class LightTable:
     def append(self, value: PointLight | SpotLight | SunLight | AreaLight) -> int:
         """
         Adds an entry and returns its index.
+        """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
         """
 
 class Scene:
@@ -6697,6 +6784,119 @@ class Session:
     def tree_bytes(self) -> int:
         """
         memory of the trees that rays walk, with the triangles that they hold
+        """
+
+class ViewPicture:
+    """
+    What a view shows at some time.
+    """
+    @property
+    def film_size(self) -> tuple[int, int]:
+        """
+        (width, height) of all that the view could show, in this picture's pixels
+        """
+    @property
+    def pixels(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (height, width, 4) float32, row 0 at the bottom, alpha associated. Not a copy.
+        """
+    @property
+    def rect(self) -> tuple[int, int, int, int]:
+        """
+        (x, y, width, height) among the film's pixels, which are larger in a first picture
+        """
+    @property
+    def samples(self) -> int:
+        """
+        of each pixel; 0 where pixels are larger than the view's
+        """
+
+class ViewStatus:
+    """
+    How far a view is.
+    """
+    @property
+    def elapsed_seconds(self) -> float:
+        """
+        since the view was set
+        """
+    @property
+    def is_done(self) -> bool:
+        """
+        nothing more comes until something is set
+        """
+    @property
+    def is_preparing(self) -> bool:
+        """
+        the scene that was set last is being read
+        """
+    @property
+    def prepared_fraction(self) -> float: ...
+    @property
+    def samples(self) -> int:
+        """
+        of each pixel of the newest picture
+        """
+    @property
+    def samples_end(self) -> int:
+        """
+        where refinement ends
+        """
+
+class ViewSession:
+    """
+    Shows a scene that is being worked on.
+
+    Works on native threads of its own, and no call waits for them. Pictures are of the whole view: coarse ones at once,
+    then ones of more and more samples. A picture of up to 64 samples has the values of a render with so many. One thread
+    makes the calls.
+    """
+    def __init__(self, threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None: ...
+    def close(self) -> None:
+        """
+        Stops and joins the threads.
+        """
+    def set_paused(self, is_paused: bool) -> None:
+        """
+        Takes no more samples, or goes on with them.
+        """
+    def set_scene(self, scene: typing.Any) -> None:
+        """
+        Shows this scene; of the same object as before only what has changed is prepared again. Until status says that it is no longer preparing, the scene can't be changed, nor this be called.
+        """
+    def set_view(
+        self,
+        camera: PerspectiveCamera
+        | OrthographicCamera
+        | EquirectangularCamera
+        | FisheyeEquidistantCamera
+        | FisheyeEquisolidCamera
+        | FisheyePolynomialCamera
+        | CubemapFaceCamera
+        | CylindricalCamera,
+        settings: RenderSettings,
+        pass_name: str = "Combined",
+    ) -> None:
+        """
+        Looks at the scene with this camera; settings.samples is where refinement ends. Raises SceneError.
+        """
+    def take_picture(self) -> ViewPicture | None:
+        """
+        The newest picture, None where it was taken already or there is none yet.
+        """
+    def take_warnings(self) -> list[str]:
+        """
+        What preparing the scene had to say since the last call.
+        """
+    @property
+    def has_picture(self) -> bool:
+        """
+        there is one to take
+        """
+    @property
+    def status(self) -> ViewStatus:
+        """
+        Raises SceneError, once, where the scene can't be rendered.
         """
 
 def load_scene(
