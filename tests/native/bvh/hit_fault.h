@@ -61,27 +61,31 @@ inline DistanceAndBorder distance_and_border(const std::vector<Shape>& shapes,
 
 // What is wrong with a hit, given the nearest by testing everything in double precision, or an empty string. A kernel
 // rounds: it may take another surface that is as near within rounding, and rays that pass a triangle's border within
-// rounding may hit it or not.
+// rounding, or meet it at an end of their range, may hit it or not.
 inline std::string find_hit_fault(const Hit& hit, const Hit& expected, const std::vector<Shape>& shapes,
                                   const std::vector<TracedInstance>& instances, const Ray& ray) {
   constexpr double rounding = 2e-5;
   const auto distance = [&](const Hit& of) {
     return distance_and_border(shapes, instances, ray, of.instance, of.primitive);
   };
-  if (!hit.is_hit() && !expected.is_hit()) return {};
-  if (!hit.is_hit()) return distance(expected).border < rounding ? "" : "misses a hit";
-  const auto [t, border, scale] = distance(hit);
-  if (border < -rounding) return "hits a triangle that the ray passes by";
   // Distances below the smallest normal float round by as much as that of the denormal ones.
-  const double allowed = rounding * std::max(t, scale) + static_cast<double>(std::numeric_limits<float>::denorm_min());
-  if (std::abs(static_cast<double>(hit.t) - t) > allowed) return "has the wrong distance";
-  const bool may_miss = border < rounding || std::abs(t - static_cast<double>(ray.t_min)) < allowed ||
-                        std::abs(t - static_cast<double>(ray.t_max)) < allowed;
-  if (!expected.is_hit()) return may_miss ? "" : "hits what isn't there";
+  const auto allowed = [&](const DistanceAndBorder& of) {
+    return rounding * std::max(of.t, of.scale) + static_cast<double>(std::numeric_limits<float>::denorm_min());
+  };
+  const auto may_miss = [&](const DistanceAndBorder& of) {
+    return of.border < rounding || std::abs(of.t - static_cast<double>(ray.t_min)) < allowed(of) ||
+           std::abs(of.t - static_cast<double>(ray.t_max)) < allowed(of);
+  };
+  if (!hit.is_hit() && !expected.is_hit()) return {};
+  if (!hit.is_hit()) return may_miss(distance(expected)) ? "" : "misses a hit";
+  const DistanceAndBorder found = distance(hit);
+  if (found.border < -rounding) return "hits a triangle that the ray passes by";
+  if (std::abs(static_cast<double>(hit.t) - found.t) > allowed(found)) return "has the wrong distance";
+  if (!expected.is_hit()) return may_miss(found) ? "" : "hits what isn't there";
   const bool is_same = hit.instance == expected.instance && hit.primitive == expected.primitive;
   const auto expected_t = static_cast<double>(expected.t);
-  if (is_same || std::abs(t - expected_t) <= allowed) return {};
-  return (t < expected_t ? may_miss : distance(expected).border < rounding) ? "" : "is not the nearest";
+  if (is_same || std::abs(found.t - expected_t) <= allowed(found)) return {};
+  return may_miss(found.t < expected_t ? found : distance(expected)) ? "" : "is not the nearest";
 }
 
 }  // namespace basicrt::test
