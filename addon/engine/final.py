@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 import warnings
+import weakref
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -86,12 +87,6 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         with caught(self._show_failure):
             self._viewport().draw(context, depsgraph)
 
-    def __del__(self) -> None:
-        """Blender has closed the viewport, or ended the render."""
-        viewport = getattr(self, "viewport", None)
-        if viewport is not None:
-            viewport.close()
-
     def _viewport(self) -> Viewport:
         """What shows the scene in the viewport of this engine."""
         if self.viewport is None:
@@ -99,6 +94,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             from .viewport import Viewport
 
             self.viewport = Viewport(self)
+            # Blender tells nobody when it closes a viewport; a dying engine can't be asked for anything.
+            weakref.finalize(self, self.viewport.close)
         return self.viewport
 
     def _show_failure(self, message: str) -> None:
