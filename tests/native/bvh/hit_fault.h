@@ -26,13 +26,20 @@ struct Sensitivity {
   double scale;
 };
 
+// What single precision rounds by, with room for several operations.
+constexpr double rounding = 2e-5;
+
 inline Sensitivity sensitivity(Vec3d origin, Vec3d direction, Vec3d p0, Vec3d p1, Vec3d p2) {
   const Vec3d edge1 = p1 - p0, edge2 = p2 - p0;
   const double area = length(cross(edge1, edge2)), size = length(direction);
   const double cosine = std::abs(dot(cross(edge1, edge2), direction)) / (area * size);
-  const double altitude = area / std::max({length(edge1), length(edge2), length(edge2 - edge1)});
+  const double longest = std::max({length(edge1), length(edge2), length(edge2 - edge1)});
+  const double altitude = area / longest;
   const double reach = std::max({length(origin), length(p0), length(p1), length(p2)});
-  return {reach / (cosine * altitude), reach / (cosine * size)};
+  // Distances are those of the corners, shared out by barycentrics: of a sliver they may be any of the triangle's.
+  const double scale = reach / (cosine * size);
+  return {reach / (cosine * altitude),
+          std::max(scale, std::min(scale * longest / altitude, longest / (size * rounding)))};
 }
 
 // Of a ray and one primitive, in double precision. Kernels may round in the instance's space or in the world.
@@ -64,7 +71,6 @@ inline DistanceAndBorder distance_and_border(const std::vector<Shape>& shapes,
 // rounding, or meet it at an end of their range, may hit it or not.
 inline std::string find_hit_fault(const Hit& hit, const Hit& expected, const std::vector<Shape>& shapes,
                                   const std::vector<TracedInstance>& instances, const Ray& ray) {
-  constexpr double rounding = 2e-5;
   const auto distance = [&](const Hit& of) {
     return distance_and_border(shapes, instances, ray, of.instance, of.primitive);
   };
