@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import warnings
 import weakref
 from typing import Any
 
@@ -11,7 +10,7 @@ import bpy
 
 import basicrt
 
-from ..export import view
+from ..export import studio_light, view
 from ..properties import settings_of
 from ..report import ExportError, Report, message_of, show_warnings
 from ..sync.instances import Filter
@@ -34,6 +33,7 @@ class Viewport:
         self._session: basicrt.ViewSession | None = None
         self._report = Report()
         self._sync = SceneSync(self._report)
+        self._studio_light = studio_light.StudioLight()
         self._texture = ViewTexture()
         self._shown: Any = None  # what the session was told to show
         self._visible: Any = None  # what the viewport showed of the scene when it was read
@@ -82,7 +82,10 @@ class Viewport:
         region = _region(context)
         self._visible = _visible(region)
         camera = view.convert_camera(region, depsgraph, self._report)
-        self._sync.update(depsgraph, camera, _filter(region))
+        shading = region.b_space.shading
+        is_lit = not shading.use_scene_world_render
+        environment = self._studio_light.environment(shading) if is_lit else None
+        self._sync.update(depsgraph, camera, _filter(region), environment)
         self._session.set_scene(self._sync.exported.scene)
         show_warnings(self._report)
 
@@ -166,5 +169,6 @@ def _visible(region: view.Region) -> Any:
         b_space.local_view is not None,
         b_space.use_local_collections,
         shading.use_scene_lights_render,
+        studio_light.key(shading),
         [getattr(b_space, name) for name in kinds],
     )

@@ -42,9 +42,7 @@ class Region:
         return b_object if b_object is not None and b_object.type == "CAMERA" else None
 
 
-def convert_camera(
-    region: Region, depsgraph: bpy.types.Depsgraph, report: Report
-) -> camera.Camera:
+def convert_camera(region: Region, depsgraph: bpy.types.Depsgraph, report: Report) -> camera.Camera:
     """The camera that sees what the region shows, whether it looks through one of the scene or not."""
     projection = np.array(region.b_data.window_matrix, np.float64)
     to_world = np.linalg.inv(np.array(region.b_data.view_matrix, np.float64))
@@ -130,7 +128,10 @@ def border(region: Region, depsgraph: bpy.types.Depsgraph) -> Border:
     if owner is not None:
         names = ("min", "max")
         parts = np.array(
-            [[getattr(owner, f"{_PREFIX[owner is b_space]}_{n}_{axis}") for axis in "xy"] for n in names]
+            [
+                [getattr(owner, f"{_PREFIX[owner is b_space]}_{n}_{axis}") for axis in "xy"]
+                for n in names
+            ]
         )
         corners = base[0] + parts * (base[1] - base[0])
     lower = np.clip(np.floor(corners[0] + 0.5), 0, [width - 1, height - 1]).astype(int)

@@ -92,7 +92,9 @@ class Instances:
         self._known: dict[Key, _Known | None] = {}  # None: it is none of ours, or has no faces
         self._lights: dict[Key, int] = {}  # in Scene.lights
         self._object_names: dict[int, str] = {}
-        self._instanced: set[int] = set()  # the numbers of objects that are placed by others, and of those
+        self._instanced: set[int] = (
+            set()
+        )  # the numbers of objects that are placed by others, and of those
         # Of one update, by the numbers of an object and of what instances it, and by the mesh's key.
         self._slots: dict[tuple[int, int], list[int | None]] = {}
         self._asked: dict[tuple[int, int], frozenset[MeshData]] = {}
@@ -335,33 +337,25 @@ class Instances:
             self._materials[key] = self._scene.materials.append(converted)
         return self._materials[key]
 
-    def _asset_name(
-        self, b_instance: Any, b_object: bpy.types.Object
-    ) -> str:
+    def _asset_name(self, b_instance: Any, b_object: bpy.types.Object) -> str:
         """What an object is part of: its topmost parent, or that of what instances it."""
         b_asset: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
         while b_asset.parent is not None:
             b_asset = b_asset.parent
         return str(b_asset.name)
 
-    def _is_holdout(
-        self, b_instance: Any, b_object: bpy.types.Object
-    ) -> bool:
+    def _is_holdout(self, b_instance: Any, b_object: bpy.types.Object) -> bool:
         """Whether it is a hole in the picture: itself, what instances it, or a collection of it."""
         b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
         in_collection = b_root.original.holdout_get(view_layer=self._b_original_layer)
         return bool(b_object.is_holdout or b_root.is_holdout or in_collection)
 
-    def _is_shadow_catcher(
-        self, b_instance: Any, b_object: bpy.types.Object
-    ) -> bool:
+    def _is_shadow_catcher(self, b_instance: Any, b_object: bpy.types.Object) -> bool:
         """Whether only shadows on it are seen: itself or what instances it says so."""
         b_root: Any = (b_instance.parent if b_instance.is_instance else None) or b_object
         return bool(b_object.is_shadow_catcher or b_root.is_shadow_catcher)
 
-    def _visibility_of(
-        self, b_instance: Any, b_object: bpy.types.Object
-    ) -> int:
+    def _visibility_of(self, b_instance: Any, b_object: bpy.types.Object) -> int:
         """Which rays see an instance: those that may see both the object and what instances it."""
         b_parent = b_instance.parent if b_instance.is_instance else None
         key = (uid(b_object), uid(b_parent) if b_parent else 0)

@@ -21,6 +21,7 @@ from .changes import Changes, history
 from .instances import Filter, Instances
 from .motion import FrameSet, MotionExport, set_frame
 
+
 @dataclass
 class Export:
     """A scene, and what its user calls the things in it."""
@@ -138,9 +139,7 @@ class SceneSync:
             scene.world_volume = None
             changes.has_world = True
             self._textures = Textures(scene)
-            self._instances = Instances(
-                scene, names, self._report, self._textures, self._movement
-            )
+            self._instances = Instances(scene, names, self._report, self._textures, self._movement)
         elif changes.has_renamed or not is_old_layout:
             self._instances.forget()
         changes.is_selection |= changes.is_everything or changes.has_renamed or not is_old_layout
@@ -162,7 +161,7 @@ class SceneSync:
         b_scene: Any = depsgraph.scene_eval
         b_world = compat.view_layer_world(b_scene, depsgraph.view_layer_eval)
         chosen = (uid(b_world) if b_world else 0, environment is not None)
-        if changes.has_world or chosen != self._world:
+        if changes.has_world or environment is not None or chosen != self._world:
             self._convert_world(b_world, environment)
             self._world = chosen
         self._instances.begin(depsgraph, changes)
