@@ -31,7 +31,8 @@ class ViewTexture:
         pixels = np.clip(picture.pixels, -_LARGEST, _LARGEST).reshape(-1)
         make: Any = gpu.types.Buffer
         buffer = make("FLOAT", pixels.size, pixels)
-        self._texture = gpu.types.GPUTexture((width, height), format="RGBA16F", data=buffer)
+        make = gpu.types.GPUTexture
+        self._texture = make((width, height), format="RGBA16F", data=buffer)
 
     def draw(self, engine: Any, b_scene: bpy.types.Scene, width: int, height: int) -> None:
         """Draw it in a region of that size; its values are scene-linear, the view transform is Blender's."""

@@ -40,6 +40,7 @@ class Viewport:
         self._is_out_of_date = False  # something changed that was not read yet
         self._is_polling = False
         self._message = ""
+        self._failure = ""  # why there is no picture of what is to be seen now
 
     def close(self) -> None:
         """Stop working."""
@@ -66,19 +67,20 @@ class Viewport:
             if picture is not None:
                 self._texture.set(picture)
         region: Any = context.region
-        self._texture.draw(self._engine(), depsgraph.scene, region.width, region.height)
+        b_scene: Any = depsgraph.scene
+        self._texture.draw(self._engine(), b_scene, region.width, region.height)
         self._show_status()
         self._poll_later()
 
     def _read_changes(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """From Blender's data to the session's scene, unless that is busy with it."""
         if self._session is None:
-            b_render: Any = depsgraph.scene.render
-            self._session = basicrt.ViewSession(b_render.threads)
+            b_scene: Any = depsgraph.scene
+            self._session = basicrt.ViewSession(b_scene.render.threads)
         if self._session.status.is_preparing:
             self._poll_later()
             return
-        self._is_out_of_date = False
+        self._is_out_of_date, self._failure = False, ""
         region = _region(context)
         self._visible = _visible(region)
         camera = view.convert_camera(region, depsgraph, self._report)
@@ -99,29 +101,29 @@ class Viewport:
         pass_name = view.shown_pass(region)
         shown = (repr(camera), repr(settings), pass_name)
         if shown != self._shown:
-            self._shown = shown
+            self._shown, self._failure = shown, ""
             self._session.set_view(camera, settings, pass_name)
-        self._session.set_paused(settings_of(depsgraph.scene).preview_pause)
+        b_scene: Any = depsgraph.scene
+        self._session.set_paused(settings_of(b_scene).preview_pause)
 
     def _show_status(self) -> None:
         """The text in the corner of the viewport."""
-        engine: Any = self._engine()
-        if engine is None or self._session is None:
+        engine, session = self._engine(), self._session
+        if engine is None or session is None:
             return
-        try:
-            status = self._session.status
-        except basicrt.SceneError as error:
-            self._message = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
-            status = None
-        for warning in self._session.take_warnings():
+        for warning in session.take_warnings():
             self._report.add(self._sync.exported.in_users_words(warning))
             show_warnings(self._report)
-        if status is None or (status.is_done and status.samples == 0 and self._message):
-            engine.update_stats("", self._message)
-        elif status.is_preparing:
-            engine.update_stats("", f"Building trees | {status.prepared_fraction:.0%}")
+        try:
+            status = session.status
+        except basicrt.SceneError as error:
+            self._tell(error)
         else:
-            engine.update_stats("", f"Sample {status.samples}/{status.samples_end}")
+            if status.is_preparing:
+                self._message = f"Building trees | {status.prepared_fraction:.0%}"
+            elif status.samples > 0 or not status.is_done:
+                self._message = f"Sample {status.samples}/{status.samples_end}"
+        engine.update_stats("", self._failure or self._message)
 
     def _poll_later(self) -> None:
         """Have a look for pictures in a moment: Blender asks only when something happens to it."""
@@ -131,24 +133,30 @@ class Viewport:
 
     def _poll(self) -> float | None:
         """Blender's timer: has the viewport drawn where there is something new."""
+        self._is_polling = self._has_more()
+        return POLL_SECONDS if self._is_polling else None
+
+    def _has_more(self) -> bool:
+        """Whether there is still something to wait for."""
         engine, session = self._engine(), self._session
+        if engine is None or session is None:
+            return False
         try:
-            if engine is None or session is None:
-                self._is_polling = False
-                return None
             status = session.status
             if session.has_picture or (self._is_out_of_date and not status.is_preparing):
                 engine.tag_redraw()
         except ReferenceError:  # Blender has done away with the engine
             self.close()
-            self._is_polling = False
-            return None
+            return False
         except basicrt.SceneError as error:
-            self._message = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
+            self._tell(error)
             engine.tag_redraw()
-        is_done = status.is_done and not session.has_picture and not self._is_out_of_date
-        self._is_polling = not is_done
-        return None if is_done else POLL_SECONDS
+            return False
+        return not status.is_done or session.has_picture or self._is_out_of_date
+
+    def _tell(self, error: basicrt.SceneError) -> None:
+        """Why there is no picture, in the corner of the viewport from the next drawing on."""
+        self._failure = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
 
 
 def _region(context: Any) -> view.Region:

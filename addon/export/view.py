@@ -148,7 +148,8 @@ def convert_settings(
     """The scene's settings with the region's size and border and the samples of viewports."""
     b_scene: Any = depsgraph.scene_eval
     made = basicrt.RenderSettings()
-    settings.convert(b_scene, depsgraph.view_layer_eval, made, report)
+    b_view_layer: Any = depsgraph.view_layer_eval
+    settings.convert(b_scene, b_view_layer, made, report)
     made.width, made.height = region.size
     shown = border(region, depsgraph)
     made.border_x, made.border_y = shown.x, shown.y

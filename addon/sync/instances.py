@@ -103,9 +103,9 @@ class Instances:
 
     def begin(self, depsgraph: bpy.types.Depsgraph, changes: Changes) -> None:
         """Forget what has changed."""
-        self._b_view_layer = depsgraph.view_layer_eval
-        self._b_original_layer = depsgraph.view_layer
-        self._b_scene = depsgraph.scene_eval
+        self._b_view_layer: Any = depsgraph.view_layer_eval
+        self._b_original_layer: Any = depsgraph.view_layer
+        self._b_scene: Any = depsgraph.scene_eval
         self._slots.clear()
         self._asked.clear()
         self._visibility.clear()

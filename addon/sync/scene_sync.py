@@ -56,17 +56,18 @@ def export(
     frame = b_scene.frame_current_final
     b_original: Any = b_camera.original
     sync = SceneSync(report)
+    b_evaluated: Any = depsgraph.scene_eval
     if shutter is None or frame_set is None:
-        sync.update(depsgraph, camera.convert(b_camera, depsgraph.scene_eval.render, report))
+        sync.update(depsgraph, camera.convert(b_camera, b_evaluated.render, report))
         return sync.exported
     movement = MotionExport(sync.exported.scene, shutter, report)
     try:
         if shutter.center != frame:
             set_frame(frame_set, shutter.center)
-        b_evaluated = b_original.evaluated_get(depsgraph)
-        b_render = depsgraph.scene_eval.render
+        b_evaluated = depsgraph.scene_eval
+        b_camera = b_original.evaluated_get(depsgraph)
         sync.follow(movement)
-        sync.update(depsgraph, camera.convert(b_evaluated, b_render, report))
+        sync.update(depsgraph, camera.convert(b_camera, b_evaluated.render, report))
         movement.follow(depsgraph, b_original, frame_set)
     finally:
         set_frame(frame_set, frame)
@@ -145,9 +146,8 @@ class SceneSync:
         changes.is_selection |= changes.is_everything or changes.has_renamed or not is_old_layout
         self._basis = basis
         b_scene: Any = depsgraph.scene_eval
-        settings.convert(
-            b_scene, depsgraph.view_layer_eval, self.exported.scene.settings, self._report
-        )
+        b_view_layer: Any = depsgraph.view_layer_eval
+        settings.convert(b_scene, b_view_layer, self.exported.scene.settings, self._report)
         self.exported.scene.camera = view_camera
 
     def _update(
@@ -159,7 +159,8 @@ class SceneSync:
     ) -> None:
         """Convert what has changed."""
         b_scene: Any = depsgraph.scene_eval
-        b_world = compat.view_layer_world(b_scene, depsgraph.view_layer_eval)
+        b_view_layer: Any = depsgraph.view_layer_eval
+        b_world = compat.view_layer_world(b_scene, b_view_layer)
         chosen = (uid(b_world) if b_world else 0, environment is not None)
         if changes.has_world or environment is not None or chosen != self._world:
             self._convert_world(b_world, environment)
@@ -195,8 +196,9 @@ class SceneSync:
 def _basis(depsgraph: bpy.types.Depsgraph, view_camera: camera.Camera) -> Any:
     """What can't change without everything changing."""
     b_scene: Any = depsgraph.scene
+    b_view_layer: Any = depsgraph.view_layer
     is_flat = isinstance(view_camera, (basicrt.PerspectiveCamera, basicrt.OrthographicCamera))
-    return uid(b_scene), depsgraph.view_layer.name, history(), is_flat
+    return uid(b_scene), b_view_layer.name, history(), is_flat
 
 
 def _layout(depsgraph: bpy.types.Depsgraph) -> Iterator[Any]:

@@ -139,7 +139,8 @@ makes the calls.)")
       .def_property_readonly("has_picture", &BoundViewSession::has_picture, "there is one to take")
       .def_property_readonly("status", &BoundViewSession::status,
                              "Raises SceneError, once, where the scene can't be rendered.")
-      .def("take_warnings", &BoundViewSession::take_warnings, "What preparing the scene had to say since the last call.")
+      .def("take_warnings", &BoundViewSession::take_warnings,
+           "What preparing the scene had to say since the last call.")
       .def("close", &BoundViewSession::close, "Stops and joins the threads.");
 }
 

@@ -66,7 +66,7 @@ class Tracer {
   const Kernel* kernel_;
   std::vector<ShapeTree> trees_;
   std::vector<TracedInstance> instances_;
-  std::vector<Bounds3f> boxes_;  // of the instances, in the world
+  std::vector<Bounds3f> boxes_;                                // of the instances, in the world
   std::vector<std::vector<KernelInterval>> kernel_intervals_;  // of each tree
   std::vector<KernelInstance> kernel_instances_;
   MeshTree merged_;  // of small meshes that are used once, in world space

@@ -72,7 +72,8 @@ void copy_as_rgba(const Tile& tile, Pass pass, ViewPicture& picture) {
     const std::size_t row = static_cast<std::size_t>(tile.rect.y - picture.rect.y + y) * picture.rect.width;
     float* to = picture.rgba.data() + 4 * (row + (tile.rect.x - picture.rect.x));
     for (int x = 0; x < tile.rect.width; ++x, from += channels, to += 4)
-      for (std::size_t i = 0; i < 4; ++i) to[i] = i < channels ? from[i] : i == 3 ? 1 : from[channels == 1 ? 0 : i % channels];
+      for (std::size_t i = 0; i < 4; ++i)
+        to[i] = i < channels ? from[i] : i == 3 ? 1 : from[channels == 1 ? 0 : i % channels];
   }
 }
 

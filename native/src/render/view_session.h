@@ -28,12 +28,12 @@ struct ViewPicture {
 };
 
 struct ViewStatus {
-  bool is_preparing = false;    // the scene that was set last is being read
+  bool is_preparing = false;  // the scene that was set last is being read
   double prepared_fraction = 0;
-  int samples = 0;              // of each pixel of the newest picture
-  int samples_end = 0;          // where refinement ends
-  double elapsed_seconds = 0;   // since the view was set
-  bool is_done = false;         // nothing more comes until something is set
+  int samples = 0;             // of each pixel of the newest picture
+  int samples_end = 0;         // where refinement ends
+  double elapsed_seconds = 0;  // since the view was set
+  bool is_done = false;        // nothing more comes until something is set
 };
 
 // Works on threads of its own; no call waits for it. One thread makes the calls. A picture of n samples has the values

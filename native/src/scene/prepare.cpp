@@ -139,19 +139,18 @@ float shadow_terminator_offset(const Scene& scene, const Instance& instance) {
 PreparedScene::PreparedInstance prepare_instance(const Scene& scene, const PreparedScene& prepared,
                                                  const Instance& instance) {
   const auto default_index = static_cast<std::uint32_t>(prepared.materials.size() - 1);
-  PreparedScene::PreparedInstance result{
-      .shape = instance.shape.index,
-      .placement = Placement{TransformD(instance.object_to_world)},
-      .motion = motion_of(instance),
-      .materials = resolve_materials(instance, default_index),
-      .info = instance.info,
-      .is_holdout = instance.is_holdout,
-      .is_shadow_catcher = instance.is_shadow_catcher,
-      .shadow_terminator_offset = shadow_terminator_offset(scene, instance),
-      .shadow_terminator_shading_offset = instance.shadow_terminator_shading_offset,
-      .pass_index = instance.pass_index,
-      .object_id = matte_id(instance.name),
-      .asset_id = matte_id(asset_name(instance))};
+  PreparedScene::PreparedInstance result{.shape = instance.shape.index,
+                                         .placement = Placement{TransformD(instance.object_to_world)},
+                                         .motion = motion_of(instance),
+                                         .materials = resolve_materials(instance, default_index),
+                                         .info = instance.info,
+                                         .is_holdout = instance.is_holdout,
+                                         .is_shadow_catcher = instance.is_shadow_catcher,
+                                         .shadow_terminator_offset = shadow_terminator_offset(scene, instance),
+                                         .shadow_terminator_shading_offset = instance.shadow_terminator_shading_offset,
+                                         .pass_index = instance.pass_index,
+                                         .object_id = matte_id(instance.name),
+                                         .asset_id = matte_id(asset_name(instance))};
   for (const std::uint32_t material : result.materials)
     result.needs_derivatives = result.needs_derivatives || needs_derivatives(prepared.materials[material].material);
   if (result.needs_derivatives) result.box = bounds(prepared.shapes[result.shape]);
@@ -207,8 +206,9 @@ bool shines_or_scatters(const PreparedScene& prepared, const PreparedScene::Prep
 // Puts instances that were written since where they are now; false, with nothing changed that counts, where more than
 // that has to be prepared again.
 bool move_instances(const Scene& scene, PreparedScene& prepared, const BvhConfig& config) {
-  if (prepared.instances.size() != scene.instances.size() || prepared.settings.bvh_builder != scene.settings.bvh_builder ||
-      prepared.stamps != stamps_of(scene) || prepared.world_volume != scene.world_volume.index ||
+  if (prepared.instances.size() != scene.instances.size() ||
+      prepared.settings.bvh_builder != scene.settings.bvh_builder || prepared.stamps != stamps_of(scene) ||
+      prepared.world_volume != scene.world_volume.index ||
       !is_same_environment(prepared.environment, scene.environment) || !scene.camera)
     return false;
   std::vector<Tracer::Move> moves;
@@ -322,8 +322,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     const PreparedScene::PreparedInstance& added = prepared.instances.back();
     traced.push_back(traced_instance(instance, added));
     const auto* mesh = std::get_if<Mesh>(&prepared.shapes[instance.shape.index]);
-    prepared.has_moving_shapes =
-        prepared.has_moving_shapes || !added.motion.empty() || (mesh && mesh->is_deforming());
+    prepared.has_moving_shapes = prepared.has_moving_shapes || !added.motion.empty() || (mesh && mesh->is_deforming());
   }
   find_volumes(scene, prepared);
   for (const PreparedMaterial& prepared_material : prepared.materials)
