@@ -10,7 +10,7 @@ import bpy
 
 import basicrt
 
-from ..export import view
+from ..export import studio_light, view
 from ..properties import settings_of
 from ..report import ExportError, Report, message_of, show_warnings
 from ..sync.instances import Filter
@@ -33,12 +33,14 @@ class Viewport:
         self._session: basicrt.ViewSession | None = None
         self._report = Report()
         self._sync = SceneSync(self._report)
+        self._studio_light = studio_light.StudioLight()
         self._texture = ViewTexture()
         self._shown: Any = None  # what the session was told to show
         self._visible: Any = None  # what the viewport showed of the scene when it was read
         self._is_out_of_date = False  # something changed that was not read yet
         self._is_polling = False
         self._message = ""
+        self._failure = ""  # why there is no picture of what is to be seen now
 
     def close(self) -> None:
         """Stop working."""
@@ -78,11 +80,14 @@ class Viewport:
         if self._session.status.is_preparing:
             self._poll_later()
             return
-        self._is_out_of_date = False
+        self._is_out_of_date, self._failure = False, ""
         region = _region(context)
         self._visible = _visible(region)
         camera = view.convert_camera(region, depsgraph, self._report)
-        self._sync.update(depsgraph, camera, _filter(region))
+        shading = region.b_space.shading
+        is_lit = not shading.use_scene_world_render
+        environment = self._studio_light.environment(shading) if is_lit else None
+        self._sync.update(depsgraph, camera, _filter(region), environment)
         self._session.set_scene(self._sync.exported.scene)
         show_warnings(self._report)
 
@@ -96,30 +101,29 @@ class Viewport:
         pass_name = view.shown_pass(region)
         shown = (repr(camera), repr(settings), pass_name)
         if shown != self._shown:
-            self._shown = shown
+            self._shown, self._failure = shown, ""
             self._session.set_view(camera, settings, pass_name)
         b_scene: Any = depsgraph.scene
         self._session.set_paused(settings_of(b_scene).preview_pause)
 
     def _show_status(self) -> None:
         """The text in the corner of the viewport."""
-        engine: Any = self._engine()
-        if engine is None or self._session is None:
+        engine, session = self._engine(), self._session
+        if engine is None or session is None:
             return
-        try:
-            status = self._session.status
-        except basicrt.SceneError as error:
-            self._message = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
-            status = None
-        for warning in self._session.take_warnings():
+        for warning in session.take_warnings():
             self._report.add(self._sync.exported.in_users_words(warning))
             show_warnings(self._report)
-        if status is None or (status.is_done and status.samples == 0 and self._message):
-            engine.update_stats("", self._message)
-        elif status.is_preparing:
-            engine.update_stats("", f"Building trees | {status.prepared_fraction:.0%}")
+        try:
+            status = session.status
+        except basicrt.SceneError as error:
+            self._tell(error)
         else:
-            engine.update_stats("", f"Sample {status.samples}/{status.samples_end}")
+            if status.is_preparing:
+                self._message = f"Building trees | {status.prepared_fraction:.0%}"
+            elif status.samples > 0 or not status.is_done:
+                self._message = f"Sample {status.samples}/{status.samples_end}"
+        engine.update_stats("", self._failure or self._message)
 
     def _poll_later(self) -> None:
         """Have a look for pictures in a moment: Blender asks only when something happens to it."""
@@ -129,25 +133,30 @@ class Viewport:
 
     def _poll(self) -> float | None:
         """Blender's timer: has the viewport drawn where there is something new."""
-        engine: Any = self._engine()
-        session: Any = self._session
+        self._is_polling = self._has_more()
+        return POLL_SECONDS if self._is_polling else None
+
+    def _has_more(self) -> bool:
+        """Whether there is still something to wait for."""
+        engine, session = self._engine(), self._session
+        if engine is None or session is None:
+            return False
         try:
-            if engine is None or session is None:
-                self._is_polling = False
-                return None
             status = session.status
             if session.has_picture or (self._is_out_of_date and not status.is_preparing):
                 engine.tag_redraw()
         except ReferenceError:  # Blender has done away with the engine
             self.close()
-            self._is_polling = False
-            return None
+            return False
         except basicrt.SceneError as error:
-            self._message = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
+            self._tell(error)
             engine.tag_redraw()
-        is_done = status.is_done and not session.has_picture and not self._is_out_of_date
-        self._is_polling = not is_done
-        return None if is_done else POLL_SECONDS
+            return False
+        return not status.is_done or session.has_picture or self._is_out_of_date
+
+    def _tell(self, error: basicrt.SceneError) -> None:
+        """Why there is no picture, in the corner of the viewport from the next drawing on."""
+        self._failure = message_of(ExportError(self._sync.exported.in_users_words(str(error))))
 
 
 def _region(context: Any) -> view.Region:
@@ -168,5 +177,6 @@ def _visible(region: view.Region) -> Any:
         b_space.local_view is not None,
         b_space.use_local_collections,
         shading.use_scene_lights_render,
+        studio_light.key(shading),
         [getattr(b_space, name) for name in kinds],
     )

@@ -62,6 +62,9 @@ _HARMLESS = (
 )
 
 
+_persistent: Any = bpy.app.handlers.persistent
+
+
 class _History:
     """How often Blender has put data back to what it was, after which no pointer means what it did."""
 
@@ -73,6 +76,7 @@ def history() -> int:
     return _History.steps
 
 
+@_persistent  # the next file wants it too
 def _count_step(*_args: Any) -> None:
     _History.steps += 1
 

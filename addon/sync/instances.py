@@ -106,7 +106,7 @@ class Instances:
         self._b_view_layer: Any = depsgraph.view_layer_eval
         b_original_layer: Any = depsgraph.view_layer
         self._b_original_layer: Any = b_original_layer
-        self._b_scene = depsgraph.scene_eval
+        self._b_scene: Any = depsgraph.scene_eval
         self._groups = light_groups.numbers(b_original_layer, self._report)
         self._slots.clear()
         self._asked.clear()

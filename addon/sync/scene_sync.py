@@ -163,7 +163,7 @@ class SceneSync:
         b_world = compat.view_layer_world(b_scene, b_view_layer)
         group = light_groups.number_of(b_world, light_groups.numbers(b_view_layer))
         chosen = (uid(b_world) if b_world else 0, environment is not None, group)
-        if changes.has_world or chosen != self._world:
+        if changes.has_world or environment is not None or chosen != self._world:
             self._convert_world(b_world, environment, group)
             self._world = chosen
         self._instances.begin(depsgraph, changes)

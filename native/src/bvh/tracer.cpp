@@ -2,6 +2,7 @@
 // Hands batches of rays to the kernel, and does for it what needs double precision.
 #include "bvh/tracer.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -146,12 +147,12 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 Tracer::Tracer(std::vector<ShapeTree> trees, std::vector<TracedInstance> instances, const BvhConfig& config)
     : kernel_(&chosen_kernel()), trees_(std::move(trees)), instances_(std::move(instances)) {
   for (const ShapeTree& tree : trees_) kernel_intervals_.push_back(kernel_intervals(tree));
-  std::vector<Bounds3f> boxes;
+  boxes_.reserve(instances_.size());
+  kernel_instances_.reserve(instances_.size() + 1);
   for (const TracedInstance& instance : instances_) {
     BASICRT_ASSERT(instance.shape < trees_.size());
     const ShapeTree& tree = trees_[instance.shape];
-    boxes.push_back(world_bounds(tree.bounds, instance));
-    bounds_.extend(boxes.back());
+    boxes_.push_back(box_of(instance));
     KernelInstance& added =
         kernel_instances_.emplace_back(kernel_instance(std::get_if<MeshTree>(&tree.geometry), instance));
     const std::vector<KernelInterval>& intervals = kernel_intervals_[instance.shape];
@@ -160,11 +161,43 @@ Tracer::Tracer(std::vector<ShapeTree> trees, std::vector<TracedInstance> instanc
     added.intervals = intervals.data();
     added.interval_count = static_cast<std::uint32_t>(intervals.size());
   }
-  merge_small_meshes(boxes, config);
-  for (std::size_t i = 0; i < instances_.size(); ++i)
+  merge_small_meshes(boxes_, config);
+  build_tree_of_instances(config);
+}
+
+Bounds3f Tracer::box_of(const TracedInstance& instance) const {
+  return world_bounds(trees_[instance.shape].bounds, instance);
+}
+
+void Tracer::build_tree_of_instances(const BvhConfig& config) {
+  std::vector<Bounds3f> boxes = boxes_;
+  bounds_ = {};
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    bounds_.extend(boxes[i]);
     if (kernel_instances_[i].first_merged != no_reference) boxes[i] = Bounds3f{};
+  }
   boxes.push_back(merged_.tree.bounds);
   instance_tree_ = build_instance_tree(boxes, config);
+}
+
+bool Tracer::move_instances(std::span<const Move> moves, const BvhConfig& config) {
+  const auto is_simple = [&](const Move& move) {
+    const TracedInstance& before = instances_[move.index];
+    const KernelInstance& kernel = kernel_instances_[move.index];
+    return before.shape == move.instance.shape && before.visibility == move.instance.visibility &&
+           before.motion.empty() && move.instance.motion.empty() && kernel_intervals_[before.shape].empty() &&
+           kernel.first_merged == no_reference &&
+           is_usable_for_kernels(boxes_[move.index]) == is_usable_for_kernels(box_of(move.instance));
+  };
+  if (!std::ranges::all_of(moves, is_simple)) return false;
+  for (const Move& move : moves) {
+    instances_[move.index] = move.instance;
+    boxes_[move.index] = box_of(move.instance);
+    const auto* mesh = std::get_if<MeshTree>(&trees_[move.instance.shape].geometry);
+    kernel_instances_[move.index] = kernel_instance(mesh, instances_[move.index]);
+  }
+  build_tree_of_instances(config);
+  return true;
 }
 
 void Tracer::merge_small_meshes(std::span<const Bounds3f> boxes, const BvhConfig& config) {

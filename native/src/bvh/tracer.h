@@ -41,6 +41,13 @@ class Tracer {
   [[nodiscard]] Bounds3f bounds() const { return bounds_; }
   // Of all trees, with the triangles that they hold: bytes.
   [[nodiscard]] std::size_t memory() const;
+  // Places some instances otherwise, each of the same shape as before, and builds the tree over all of them again. False, with
+  // nothing changed, where it takes a new Tracer: for those that move, and for small meshes that share a tree.
+  struct Move {
+    std::uint32_t index;
+    TracedInstance instance;
+  };
+  [[nodiscard]] bool move_instances(std::span<const Move> moves, const BvhConfig& config);
   // Gives the trees back, so that the next Tracer need not build them again. Leaves this one empty.
   [[nodiscard]] std::vector<ShapeTree> take_trees();
 
@@ -49,6 +56,8 @@ class Tracer {
 
  private:
   [[nodiscard]] KernelScene kernel_scene() const;
+  [[nodiscard]] Bounds3f box_of(const TracedInstance& instance) const;
+  void build_tree_of_instances(const BvhConfig& config);
   void merge_small_meshes(std::span<const Bounds3f> boxes,
                           const BvhConfig& config);  // boxes: of the instances, in the world
   // The nearest hit on one instance in double precision: for what kernels don't walk.
@@ -57,6 +66,7 @@ class Tracer {
   const Kernel* kernel_;
   std::vector<ShapeTree> trees_;
   std::vector<TracedInstance> instances_;
+  std::vector<Bounds3f> boxes_;                                // of the instances, in the world
   std::vector<std::vector<KernelInterval>> kernel_intervals_;  // of each tree
   std::vector<KernelInstance> kernel_instances_;
   MeshTree merged_;  // of small meshes that are used once, in world space

@@ -135,6 +135,107 @@ float shadow_terminator_offset(const Scene& scene, const Instance& instance) {
   return mesh && !mesh->corner_normals.empty() ? instance.shadow_terminator_offset : 0;
 }
 
+// The shapes and materials must be there.
+PreparedScene::PreparedInstance prepare_instance(const Scene& scene, const PreparedScene& prepared,
+                                                 const Instance& instance) {
+  const auto default_index = static_cast<std::uint32_t>(prepared.materials.size() - 1);
+  PreparedScene::PreparedInstance result{.shape = instance.shape.index,
+                                         .placement = Placement{TransformD(instance.object_to_world)},
+                                         .motion = motion_of(instance),
+                                         .materials = resolve_materials(instance, default_index),
+                                         .info = instance.info,
+                                         .is_holdout = instance.is_holdout,
+                                         .is_shadow_catcher = instance.is_shadow_catcher,
+                                         .shadow_terminator_offset = shadow_terminator_offset(scene, instance),
+                                         .shadow_terminator_shading_offset = instance.shadow_terminator_shading_offset,
+                                         .pass_index = instance.pass_index,
+                                         .light_group = instance.light_group,
+                                         .object_id = matte_id(instance.name),
+                                         .asset_id = matte_id(asset_name(instance))};
+  for (const std::uint32_t material : result.materials)
+    result.needs_derivatives = result.needs_derivatives || needs_derivatives(prepared.materials[material].material);
+  if (result.needs_derivatives) result.box = bounds(prepared.shapes[result.shape]);
+  return result;
+}
+
+TracedInstance traced_instance(const Instance& instance, const PreparedScene::PreparedInstance& prepared) {
+  return {.shape = prepared.shape,
+          .object_to_world = prepared.placement.object_to_world,
+          .world_to_object = prepared.placement.world_to_object,
+          .visibility = traced_visibility(instance),
+          .motion = prepared.motion};
+}
+
+template <class T>
+PreparedScene::Stamp stamp(const Table<T>& table) {
+  PreparedScene::Stamp result{.size = table.size()};
+  for (std::uint32_t i = 0; i < table.size(); ++i) result.revisions += table.revision(Id<T>{i});
+  return result;
+}
+
+// Of all tables but the instances'. Revisions only grow, so that equal sums are those of equal tables.
+std::array<PreparedScene::Stamp, 4> stamps_of(const Scene& scene) {
+  return {stamp(scene.shapes), stamp(scene.textures), stamp(scene.materials), stamp(scene.lights)};
+}
+
+// All that a struct describes.
+template <class T>
+bool is_same_description(const T& a, const T& b) {
+  return std::apply([&](const auto&... field) { return (... && (a.*field.member == b.*field.member)); }, T::fields());
+}
+
+bool is_same_layer(const EnvironmentLayer& a, const EnvironmentLayer& b) {
+  if (a.sky.has_value() != b.sky.has_value() || !a.image.has_same_pixels(b.image)) return false;
+  const auto is_same_sky = [&](const auto& sky) {
+    const auto* other = std::get_if<std::decay_t<decltype(sky)>>(&*b.sky);
+    return other != nullptr && is_same_description(sky, *other);
+  };
+  return is_same_description(a, b) && (!a.sky || std::visit(is_same_sky, *a.sky));
+}
+
+bool is_same_environment(const Environment& a, const Environment& b) {
+  return a.radiance == b.radiance && std::ranges::equal(a.layers, b.layers, is_same_layer);
+}
+
+// What an instance must have as before for lights and volumes to be what they were.
+bool shines_or_scatters(const PreparedScene& prepared, const PreparedScene::PreparedInstance& instance) {
+  return std::ranges::any_of(instance.materials, [&](std::uint32_t index) {
+    return is_emissive(prepared.materials[index].material) || prepared.materials[index].medium.has_value();
+  });
+}
+
+// Puts instances that were written since where they are now; false, with nothing changed that counts, where more than
+// that has to be prepared again.
+bool move_instances(const Scene& scene, PreparedScene& prepared, const BvhConfig& config) {
+  if (prepared.instances.size() != scene.instances.size() ||
+      prepared.settings.bvh_builder != scene.settings.bvh_builder || prepared.stamps != stamps_of(scene) ||
+      prepared.world_volume != scene.world_volume.index ||
+      !is_same_environment(prepared.environment, scene.environment) || !scene.camera)
+    return false;
+  std::vector<Tracer::Move> moves;
+  std::vector<PreparedScene::PreparedInstance> moved;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    if (prepared.instance_revisions[i] == scene.instances.revision(Id<Instance>{i})) continue;
+    validate_instance(scene, Id<Instance>{i});
+    const Instance& instance = scene.instances[i];
+    if (is_empty(prepared.shapes[instance.shape.index])) return false;
+    moved.push_back(prepare_instance(scene, prepared, instance));
+    if (shines_or_scatters(prepared, moved.back()) || shines_or_scatters(prepared, prepared.instances[i]) ||
+        moved.back().is_shadow_catcher != prepared.instances[i].is_shadow_catcher)
+      return false;
+    moves.push_back({i, traced_instance(instance, moved.back())});
+  }
+  const Bounds3f bounds_before = prepared.tracer.bounds();
+  if (!moves.empty() && !prepared.tracer.move_instances(moves, config)) return false;
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    prepared.instances[moves[k].index] = std::move(moved[k]);
+    prepared.instance_revisions[moves[k].index] = scene.instances.revision(Id<Instance>{moves[k].index});
+  }
+  const Bounds3f bounds_now = prepared.tracer.bounds();
+  // Distant lights count with how large the scene is.
+  return bounds_now.lower == bounds_before.lower && bounds_now.upper == bounds_before.upper;
+}
+
 // Where the volumes are, and whether there are any.
 void find_volumes(const Scene& scene, PreparedScene& prepared) {
   const auto has_medium = [&](std::uint32_t material) { return prepared.materials[material].medium.has_value(); };
@@ -191,10 +292,17 @@ void set_window(PreparedScene& prepared, const Camera& camera, Vec2i film_size) 
 
 PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous, PrepareOptions options) {
   const BvhConfig config = bvh_config(scene.settings, options);
+  if (!previous.instances.empty() && move_instances(scene, previous, config)) {
+    validate_view(*scene.camera, scene.settings);
+    apply_view(previous, *scene.camera, scene.settings);
+    return previous;
+  }
   validate(scene);
 
   PreparedScene prepared;
   prepared.settings.bvh_builder = scene.settings.bvh_builder;
+  prepared.stamps = stamps_of(scene);
+  prepared.environment = scene.environment;
   prepared.textures = scene.textures;
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
     prepared.materials.emplace_back(scene.materials[i], prepared.textures);
@@ -205,34 +313,16 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   std::vector<ShapeTree> trees = prepare_shapes(scene, report, previous, prepared, config);
 
   std::vector<TracedInstance> traced;
+  traced.reserve(scene.instances.size());
+  prepared.instances.reserve(scene.instances.size());
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
+    prepared.instance_revisions.push_back(scene.instances.revision(Id<Instance>{i}));
     prepared.has_shadow_catchers = prepared.has_shadow_catchers || instance.is_shadow_catcher;
     if (is_empty(prepared.shapes[instance.shape.index])) continue;
-    const Placement placement{TransformD(instance.object_to_world)};
-    const auto default_index = static_cast<std::uint32_t>(prepared.materials.size() - 1);
-    prepared.instances.push_back({.shape = instance.shape.index,
-                                  .placement = placement,
-                                  .motion = motion_of(instance),
-                                  .materials = resolve_materials(instance, default_index),
-                                  .info = instance.info,
-                                  .is_holdout = instance.is_holdout,
-                                  .is_shadow_catcher = instance.is_shadow_catcher,
-                                  .shadow_terminator_offset = shadow_terminator_offset(scene, instance),
-                                  .shadow_terminator_shading_offset = instance.shadow_terminator_shading_offset,
-                                  .pass_index = instance.pass_index,
-                                  .light_group = instance.light_group,
-                                  .object_id = matte_id(instance.name),
-                                  .asset_id = matte_id(asset_name(instance))});
-    PreparedScene::PreparedInstance& added = prepared.instances.back();
-    for (const std::uint32_t material : added.materials)
-      added.needs_derivatives = added.needs_derivatives || needs_derivatives(prepared.materials[material].material);
-    if (added.needs_derivatives) added.box = bounds(prepared.shapes[added.shape]);
-    traced.push_back({.shape = instance.shape.index,
-                      .object_to_world = placement.object_to_world,
-                      .world_to_object = placement.world_to_object,
-                      .visibility = traced_visibility(instance),
-                      .motion = added.motion});
+    prepared.instances.push_back(prepare_instance(scene, prepared, instance));
+    const PreparedScene::PreparedInstance& added = prepared.instances.back();
+    traced.push_back(traced_instance(instance, added));
     const auto* mesh = std::get_if<Mesh>(&prepared.shapes[instance.shape.index]);
     prepared.has_moving_shapes = prepared.has_moving_shapes || !added.motion.empty() || (mesh && mesh->is_deforming());
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -45,7 +46,15 @@ struct PreparedScene {
   Shutter shutter;  // for what moves
   RenderSettings settings;
   std::vector<Shape> shapes;
-  std::vector<std::uint64_t> shape_revisions;
+  std::vector<std::uint64_t> shape_revisions, instance_revisions;
+  // Of the description: how many textures, materials and lights there are, and the sums of their revisions.
+  struct Stamp {
+    std::uint32_t size = 0;
+    std::uint64_t revisions = 0;
+    constexpr bool operator==(const Stamp&) const = default;
+  };
+  std::array<Stamp, 4> stamps;
+  Environment environment;
   Table<Texture> textures;
   std::vector<PreparedMaterial> materials;  // the last one is the default
   std::vector<PreparedInstance> instances;
@@ -71,7 +80,8 @@ struct PrepareOptions {
 };
 
 // Validates, then builds the trees and the lights. `previous`, the outcome of an earlier call for the same Scene object,
-// lends the trees of shapes that have not changed since. Throws SceneError, and
+// lends the trees of shapes that have not changed since; where only the places of instances have changed, and no light is
+// among them, nothing but the tree over the instances is built. Throws SceneError, and
 // Cancelled where `options.progress` asks for it.
 [[nodiscard]] PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous = {},
                                     PrepareOptions options = {});

@@ -55,6 +55,8 @@ struct Scene {
 void validate(const Scene& scene);
 // The same but for what only rendering needs, a camera.
 void validate_description(const Scene& scene);
+// One instance alone; its shape must be valid.
+void validate_instance(const Scene& scene, Id<Instance> id);
 // The camera and the settings alone.
 void validate_view(const Camera& camera, const RenderSettings& settings);
 

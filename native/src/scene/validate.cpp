@@ -197,26 +197,28 @@ void validate_reach(const Bounds3f& world_bounds, const std::string& item) {
                                number_text(largest_coordinate) + " m can be rendered");
 }
 
+void validate_instance(const Scene& scene, std::uint32_t index, const std::vector<Bounds3f>* shape_bounds) {
+  const Instance& instance = scene.instances[index];
+  const std::string item = entry("instances", index);
+  validate_id(instance.shape, scene.shapes, item + ".shape", "shapes");
+  for (std::size_t slot = 0; slot < instance.materials.size(); ++slot)
+    if (const Id<Material> id = instance.materials[slot]; id.is_valid())
+      validate_id(id, scene.materials, item + "." + entry("materials", slot), "materials");
+  const Bounds3f local = shape_bounds ? (*shape_bounds)[instance.shape.index] : bounds(scene.shapes[instance.shape]);
+  validate_field(instance.light_group, within(0, light_groups), item, "light_group");
+  validate_field(instance.shadow_terminator_offset, within(0, 1), item, "shadow_terminator_offset");
+  validate_field(instance.shadow_terminator_shading_offset, within(0, 1), item, "shadow_terminator_shading_offset");
+  validate_transform(instance.object_to_world, item + ".transform");
+  validate_reach(transform_bounds(instance.object_to_world, local), item);
+  for (std::size_t key = 0; key < instance.motion_transforms.size(); ++key) {
+    validate_transform(instance.motion_transforms[key], item + "." + entry("motion_transforms", key));
+    validate_reach(transform_bounds(instance.motion_transforms[key], local), item);
+  }
+}
+
 void validate_instances(const Scene& scene) {
   const std::vector<Bounds3f> shape_bounds = validate_shapes(scene);
-  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
-    const std::string item = entry("instances", i);
-    validate_id(instance.shape, scene.shapes, item + ".shape", "shapes");
-    for (std::size_t slot = 0; slot < instance.materials.size(); ++slot)
-      if (const Id<Material> id = instance.materials[slot]; id.is_valid())
-        validate_id(id, scene.materials, item + "." + entry("materials", slot), "materials");
-    const Bounds3f& local = shape_bounds[instance.shape.index];
-    validate_field(instance.light_group, within(0, light_groups), item, "light_group");
-    validate_field(instance.shadow_terminator_offset, within(0, 1), item, "shadow_terminator_offset");
-    validate_field(instance.shadow_terminator_shading_offset, within(0, 1), item, "shadow_terminator_shading_offset");
-    validate_transform(instance.object_to_world, item + ".transform");
-    validate_reach(transform_bounds(instance.object_to_world, local), item);
-    for (std::size_t key = 0; key < instance.motion_transforms.size(); ++key) {
-      validate_transform(instance.motion_transforms[key], item + "." + entry("motion_transforms", key));
-      validate_reach(transform_bounds(instance.motion_transforms[key], local), item);
-    }
-  }
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) validate_instance(scene, i, &shape_bounds);
 }
 
 void validate_lights(const Scene& scene) {
@@ -298,6 +300,8 @@ void validate_description(const Scene& scene) {
   validate_instances(scene);
   validate_lights(scene);
 }
+
+void validate_instance(const Scene& scene, Id<Instance> id) { validate_instance(scene, id.index, nullptr); }
 
 void validate_view(const Camera& camera, const RenderSettings& settings) {
   validate_settings(settings);

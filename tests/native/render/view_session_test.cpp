@@ -97,6 +97,29 @@ TEST(ViewSession, shows_an_edited_scene_as_if_it_were_new) {
   EXPECT_EQ(after, rendered(scene));
 }
 
+// With a tree of its own, so that moving it builds the tree over the instances alone.
+TEST(ViewSession, shows_moved_instances_of_a_shared_shape_as_if_they_were_new) {
+  Scene scene = make_scene(2);
+  scene.lights.append(SunLight{});
+  for (int i = 0; i < 9; ++i) {
+    Instance copy = scene.instances[0];
+    copy.object_to_world.rows[0][3] = static_cast<float>(i % 3) - 1;
+    copy.object_to_world.rows[1][3] = static_cast<float>(i / 3) - 1;
+    scene.instances.append(copy);
+  }
+  ViewSession session(2);
+  session.set_scene(scene);
+  session.set_view(view_of(scene));
+  (void)wait_for_pictures(session);
+  for (const float z : {0.2f, -0.4f, 7.0f}) {  // the last one makes the scene larger
+    Instance moved = scene.instances[5];
+    moved.object_to_world.rows[2][3] = z;
+    scene.instances.set(Id<Instance>{5}, moved);
+    session.set_scene(scene);
+    EXPECT_EQ(wait_for_pictures(session).front().rgba, rendered(scene)) << z;
+  }
+}
+
 TEST(ViewSession, another_scene_is_not_taken_for_the_first) {
   const Scene first = make_scene(1);
   Scene second = make_scene(1);
