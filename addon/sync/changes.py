@@ -81,10 +81,6 @@ def _count_step(*_args: Any) -> None:
     _History.steps += 1
 
 
-_persistent: Any = bpy.app.handlers.persistent
-_persistent(_count_step)  # the next file wants it too
-
-
 def _handlers() -> tuple[list[Any], ...]:
     handlers: Any = bpy.app.handlers
     return handlers.undo_post, handlers.redo_post, handlers.load_post
