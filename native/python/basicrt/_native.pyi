@@ -95,6 +95,9 @@ __all__: list[str] = [
     "TranslucentShader",
     "TransparentShader",
     "VectorMathOperation",
+    "ViewPicture",
+    "ViewSession",
+    "ViewStatus",
     "VolumeShader",
     "VoronoiOperation",
     "WaveOperation",
@@ -6204,6 +6207,10 @@ class ShapeTable:
         """
         Adds an entry and returns its index.
         """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
+        """
 
 class TextureTable:
     """
@@ -6225,6 +6232,10 @@ class TextureTable:
         """
         Adds an entry and returns its index.
         """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
+        """
 
 class MaterialTable:
     """
@@ -6240,6 +6251,10 @@ class MaterialTable:
         """
         Adds an entry and returns its index.
         """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
+        """
 
 class InstanceTable:
     """
@@ -6254,6 +6269,10 @@ class InstanceTable:
     def append(self, value: Instance) -> int:
         """
         Adds an entry and returns its index.
+        """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
         """
 
 class LightTable:
@@ -6275,6 +6294,10 @@ class LightTable:
     def append(self, value: PointLight | SpotLight | SunLight | AreaLight) -> int:
         """
         Adds an entry and returns its index.
+        """
+    def clear(self) -> None:
+        """
+        Takes all entries away.
         """
 
 class Scene:
@@ -6480,6 +6503,119 @@ class Session:
     def tree_bytes(self) -> int:
         """
         memory of the trees that rays walk, with the triangles that they hold
+        """
+
+class ViewPicture:
+    """
+    What a view shows at some time.
+    """
+    @property
+    def film_size(self) -> tuple[int, int]:
+        """
+        (width, height) of all that the view could show, in this picture's pixels
+        """
+    @property
+    def pixels(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (height, width, 4) float32, row 0 at the bottom, alpha associated. Not a copy.
+        """
+    @property
+    def rect(self) -> tuple[int, int, int, int]:
+        """
+        (x, y, width, height) among the film's pixels, which are larger in a first picture
+        """
+    @property
+    def samples(self) -> int:
+        """
+        of each pixel; 0 where pixels are larger than the view's
+        """
+
+class ViewStatus:
+    """
+    How far a view is.
+    """
+    @property
+    def elapsed_seconds(self) -> float:
+        """
+        since the view was set
+        """
+    @property
+    def is_done(self) -> bool:
+        """
+        nothing more comes until something is set
+        """
+    @property
+    def is_preparing(self) -> bool:
+        """
+        the scene that was set last is being read
+        """
+    @property
+    def prepared_fraction(self) -> float: ...
+    @property
+    def samples(self) -> int:
+        """
+        of each pixel of the newest picture
+        """
+    @property
+    def samples_end(self) -> int:
+        """
+        where refinement ends
+        """
+
+class ViewSession:
+    """
+    Shows a scene that is being worked on.
+
+    Works on native threads of its own, and no call waits for them. Pictures are of the whole view: coarse ones at once,
+    then ones of more and more samples. A picture of up to 64 samples has the values of a render with so many. One thread
+    makes the calls.
+    """
+    def __init__(self, threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None: ...
+    def close(self) -> None:
+        """
+        Stops and joins the threads.
+        """
+    def set_paused(self, is_paused: bool) -> None:
+        """
+        Takes no more samples, or goes on with them.
+        """
+    def set_scene(self, scene: typing.Any) -> None:
+        """
+        Shows this scene; of the same object as before only what has changed is prepared again. Until status says that it is no longer preparing, the scene can't be changed, nor this be called.
+        """
+    def set_view(
+        self,
+        camera: PerspectiveCamera
+        | OrthographicCamera
+        | EquirectangularCamera
+        | FisheyeEquidistantCamera
+        | FisheyeEquisolidCamera
+        | FisheyePolynomialCamera
+        | CubemapFaceCamera
+        | CylindricalCamera,
+        settings: RenderSettings,
+        pass_name: str = "Combined",
+    ) -> None:
+        """
+        Looks at the scene with this camera; settings.samples is where refinement ends. Raises SceneError.
+        """
+    def take_picture(self) -> ViewPicture | None:
+        """
+        The newest picture, None where it was taken already or there is none yet.
+        """
+    def take_warnings(self) -> list[str]:
+        """
+        What preparing the scene had to say since the last call.
+        """
+    @property
+    def has_picture(self) -> bool:
+        """
+        there is one to take
+        """
+    @property
+    def status(self) -> ViewStatus:
+        """
+        Raises SceneError, once, where the scene can't be rendered.
         """
 
 def load_scene(
