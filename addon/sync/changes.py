@@ -62,9 +62,6 @@ _HARMLESS = (
 )
 
 
-_persistent: Any = bpy.app.handlers.persistent
-
-
 class _History:
     """How often Blender has put data back to what it was, after which no pointer means what it did."""
 
@@ -76,9 +73,12 @@ def history() -> int:
     return _History.steps
 
 
-@_persistent  # the next file wants it too
 def _count_step(*_args: Any) -> None:
     _History.steps += 1
+
+
+_persistent: Any = bpy.app.handlers.persistent
+_listener: Any = _persistent(_count_step)  # in the next file too
 
 
 def _handlers() -> tuple[list[Any], ...]:
@@ -89,11 +89,11 @@ def _handlers() -> tuple[list[Any], ...]:
 def register() -> None:
     """Listen for undo, redo and loaded files."""
     for handler in _handlers():
-        handler.append(_count_step)
+        handler.append(_listener)
 
 
 def unregister() -> None:
     """Listen no longer."""
     for handler in _handlers():
-        if _count_step in handler:
-            handler.remove(_count_step)
+        if _listener in handler:
+            handler.remove(_listener)

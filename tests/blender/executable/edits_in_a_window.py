@@ -21,7 +21,8 @@ _seconds: dict[str, float] = {}
 
 def measure(name: str) -> None:
     """Note the longest time that one of the engine's callbacks takes."""
-    engine = next(c for c in bpy.types.RenderEngine.__subclasses__() if c.bl_idname == "BASICRT")
+    engines = bpy.types.RenderEngine.__subclasses__()
+    engine = next(c for c in engines if getattr(c, "bl_idname", "") == "BASICRT")
     callback = getattr(engine, name)
 
     def measured(self: Any, context: Any, depsgraph: Any) -> None:
@@ -89,7 +90,7 @@ def edits() -> Iterator[str]:
     yield "normal"
     space.shading.basicrt.render_pass = "Combined"
     space.use_render_border = True
-    space.render_border_min_x, space.render_border_max_x = 0.6, 1.0
+    space.render_border_min_x, space.render_border_max_x = 0.5, 1.0
     space.render_border_min_y, space.render_border_max_y = 0.0, 1.0
     yield "border"
     space.use_render_border = False
@@ -120,15 +121,17 @@ def step() -> float:
         (FOLDER / "done").touch()
         bpy.ops.wm.quit_blender()
         return 1.0
+    except Exception:
+        bpy.ops.wm.quit_blender()
+        raise
     bpy.app.timers.register(lambda: ask(name), first_interval=REST_SECONDS)
     return REST_SECONDS + 0.2
 
 
 def ask(name: str) -> None:
     """Ask for a screenshot."""
-    shown = region()
-    height = bpy.context.window_manager.windows[0].height
-    place = [shown.x, height - shown.y - shown.height, shown.width, shown.height]
+    shown, window = region(), bpy.context.window_manager.windows[0]
+    place = [window.x + shown.x, window.y + shown.y, shown.width, shown.height]  # from below
     path = FOLDER / f"{name}.want"
     path.with_suffix(".part").write_text(json.dumps({"region": place, "seconds": _seconds}))
     path.with_suffix(".part").rename(path)
