@@ -315,18 +315,7 @@ class BASICRT_VIEW3D_PT_lighting(_ViewportPanel, bpy.types.Panel):
 
     def draw(self, context: Any) -> None:
         """Blender's callback."""
-        shading = context.space_data.shading
-        column = self.layout.column()
-        column.prop(shading, "use_scene_lights_render")
-        column.prop(shading, "use_scene_world_render")
-        if shading.use_scene_world_render:
-            return
-        row = column.row()
-        row.scale_y = 0.6
-        row.template_icon_view(shading, "studio_light", scale_popup=3)
-        column.prop(shading, "studiolight_rotate_z", text="Rotation")
-        column.prop(shading, "studiolight_intensity")
-        column.prop(shading, "studiolight_background_alpha")
+        self.layout.prop(context.space_data.shading, "use_scene_lights_render")
 
 
 class BASICRT_VIEW3D_PT_render_pass(_ViewportPanel, bpy.types.Panel):
