@@ -77,6 +77,11 @@ BsdfValue Bsdf::eval_kinds(Vec3f wo, Vec3f wi, std::uint32_t kinds) const {
   return sum;
 }
 
+bool Bsdf::has_subsurface() const {
+  return std::ranges::any_of(
+      lobes_.used(), [](const WeightedLobe& weighted) { return std::holds_alternative<Subsurface>(weighted.lobe); });
+}
+
 Vec3f Bsdf::subsurface_normal() const {
   Vec3f sum(0.0f);
   for (const WeightedLobe& weighted : lobes_.used())

@@ -103,7 +103,7 @@ class Bsdf {
   // `choice` picks the lobe, `u` the direction. Nothing where the light is absorbed.
   [[nodiscard]] std::optional<BsdfSample> sample(Vec3f wo, float choice, Vec2f u) const;
 
-  // Then eval() is zero everywhere and lights need not be sampled.
+  // Then eval() is zero everywhere and lights need not be sampled: of mirrors, panes and bodies that scatter beneath.
   [[nodiscard]] bool has_only_deltas() const { return has_only_deltas_; }
   [[nodiscard]] bool is_empty() const { return lobes_.count == 0; }
   // Where all light must come from that eval() is to see: the side of a surface with this normal, of unit length. Zero
@@ -117,6 +117,7 @@ class Bsdf {
   // A better one, of what is scattered in one way: see pass_albedo.cpp.
   [[nodiscard]] Color albedo(Vec3f wo, ScatterKind kind) const;
 
+  [[nodiscard]] bool has_subsurface() const;
   // Of subsurface lobes: their mean where they have normals of their own, else the surface's own.
   [[nodiscard]] Vec3f subsurface_normal() const;
   // Whether bumps have turned some lobe.

@@ -107,7 +107,8 @@ void PassRecorder::record_seen(std::uint32_t sample, Vec3f wo, const SurfacePoin
 
 void PassRecorder::record_features(std::uint32_t sample, Vec3f wo, const SurfacePoint& point, const Bsdf& bsdf,
                                    Color throughput) {
-  if (has_features_[sample] || bsdf.is_empty() || bsdf.has_only_deltas()) return;
+  if (has_features_[sample] || bsdf.is_empty()) return;
+  if (bsdf.has_only_deltas() && !bsdf.has_subsurface()) return;
   has_features_[sample] = 1;
   if (values_.has(Pass::denoising_albedo)) {
     Color albedo(0.0f);

@@ -16,6 +16,17 @@ inline Mesh square(float half_size, float z) {
   return mesh;
 }
 
+// Normals outwards.
+inline Mesh box(Vec3f lower, Vec3f upper) {
+  Mesh mesh;
+  for (int corner = 0; corner < 8; ++corner)
+    mesh.positions.push_back(
+        {(corner & 1) ? upper.x : lower.x, (corner & 2) ? upper.y : lower.y, (corner & 4) ? upper.z : lower.z});
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
 inline Id<Material> add_material(Scene& scene, ShaderNode node) {
   Material material;
   material.surface = material.add(std::move(node));

@@ -12,16 +12,6 @@
 namespace basicrt {
 namespace {
 
-Mesh box(Vec3f lower, Vec3f upper) {
-  Mesh mesh;
-  for (int corner = 0; corner < 8; ++corner)
-    mesh.positions.push_back(
-        {(corner & 1) ? upper.x : lower.x, (corner & 2) ? upper.y : lower.y, (corner & 4) ? upper.z : lower.z});
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return mesh;
-}
-
 // In which all that comes out meets the same light.
 Scene furnace(int samples) {
   Scene scene = scene_from_above(samples);
@@ -159,6 +149,21 @@ TEST(Subsurface, light_is_filed_as_diffuse) {
       EXPECT_NEAR((direct[3 * pixel + i] + indirect[3 * pixel + i]) * color[3 * pixel + i], combined[4 * pixel + i],
                   1e-4f);
   EXPECT_NEAR(color[0], 0.9f, 1e-3f);
+}
+
+// Unlike a mirror, which has none of its own.
+TEST(Subsurface, denoisers_are_shown_its_colour) {
+  Scene scene = furnace(16);
+  for (const Pass pass : {Pass::denoising_albedo, Pass::denoising_normal, Pass::denoising_depth})
+    scene.settings.passes.enable(pass);
+  add_instance(scene, square(10, 0), add_material(scene, straight(SubsurfaceModel::chiang, {0.9f, 0.5f, 0.2f}, 0.1f)));
+  Report report;
+  const Film film = render(prepare(scene, report));
+  const std::vector<float>& albedo = film.values(Pass::denoising_albedo);
+  EXPECT_NEAR(albedo[0], 0.9f, 1e-3f);
+  EXPECT_NEAR(albedo[1], 0.5f, 1e-3f);
+  EXPECT_NEAR(film.values(Pass::denoising_normal)[2], -1, 1e-3f);  // towards the camera
+  EXPECT_NEAR(film.values(Pass::denoising_depth)[0], 4, 1e-2f);
 }
 
 }  // namespace

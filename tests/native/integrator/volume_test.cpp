@@ -13,16 +13,6 @@
 namespace basicrt {
 namespace {
 
-Mesh box(Vec3f lower, Vec3f upper) {
-  Mesh mesh;
-  for (int corner = 0; corner < 8; ++corner)
-    mesh.positions.push_back(
-        {(corner & 1) ? upper.x : lower.x, (corner & 2) ? upper.y : lower.y, (corner & 4) ? upper.z : lower.z});
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return mesh;
-}
-
 Id<Material> add_volume(Scene& scene, const VolumeShader& volume, std::optional<ShaderNode> surface = {}) {
   Material material;
   material.volume = material.add(volume);
