@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..nodes import MeshData, Part, Source
 from . import pointiness
+from .vectors import unit
 
 Floats = NDArray[np.float32]
 Integers = NDArray[np.int32]
@@ -207,10 +208,10 @@ def make_tangents(triangles: Triangles, uvs: Floats) -> tuple[Floats, Floats]:
     along = (edges[:, 0] * uv_edges[:, 1, 1:] - edges[:, 1] * uv_edges[:, 0, 1:]) * signs[:, None]
 
     if triangles.corner_normals is None:
-        normals = np.repeat(_unit(np.cross(edges[:, 0], edges[:, 1]))[:, None], 3, axis=1)
+        normals = np.repeat(unit(np.cross(edges[:, 0], edges[:, 1]))[:, None], 3, axis=1)
     else:
         normals = triangles.corner_normals.astype(np.float64)
-    flat = _unit(_across(along[:, None], normals))
+    flat = unit(_across(along[:, None], normals))
     weighted = flat * _angles(places, normals)[..., None]
 
     keys = np.concatenate(
@@ -225,7 +226,7 @@ def make_tangents(triangles: Triangles, uvs: Floats) -> tuple[Floats, Floats]:
     group = _group_rows(keys)
     sums = np.zeros((group.max() + 1, 3))
     np.add.at(sums, group, weighted.reshape(-1, 3))
-    tangents = _unit(sums)[group].reshape(-1, 3, 3)
+    tangents = unit(sums)[group].reshape(-1, 3, 3)
     return tangents.astype(np.float32), signs.astype(np.float32)
 
 
@@ -242,15 +243,6 @@ def _group_rows(rows: NDArray[np.float64]) -> NDArray[np.int64]:
     return group
 
 
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Of length 1, or zero."""
-    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    unit: NDArray[np.float64] = np.divide(
-        vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0
-    )
-    return unit
-
-
 def _across(vectors: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
     """Without their share along normals of unit length."""
     along: NDArray[np.float64] = np.sum(vectors * normals, axis=-1, keepdims=True)
@@ -259,7 +251,7 @@ def _across(vectors: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArr
 
 def _angles(places: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
     """(T, 3): of each triangle's corners, as seen along the corners' normals."""
-    after = _unit(_across(np.roll(places, -1, axis=1) - places, normals))
-    before = _unit(_across(np.roll(places, 1, axis=1) - places, normals))
+    after = unit(_across(np.roll(places, -1, axis=1) - places, normals))
+    before = unit(_across(np.roll(places, 1, axis=1) - places, normals))
     cosines: NDArray[np.float64] = np.sum(after * before, axis=-1)
     return np.arccos(np.clip(cosines, -1.0, 1.0))

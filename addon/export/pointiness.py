@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .vectors import unit
+
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
@@ -26,13 +28,13 @@ def measure(b_mesh: Any) -> NDArray[np.float32]:
     b_mesh.edges.foreach_get("vertices", ends)
     edges = _unique_edges(place[ends.reshape(-1, 2)])
 
-    along = _unit(places[edges[:, 1]] - places[edges[:, 0]])
-    neighbours = _gather(edges, np.ones((len(edges), 1)), np.ones((len(edges), 1)), len(places))
+    along = unit(places[edges[:, 1]] - places[edges[:, 0]])
+    neighbours = np.bincount(edges.reshape(-1), minlength=len(places))[:, None]
     sums = _gather(edges, along, -along, len(places))
     mean = np.divide(sums, neighbours, out=np.zeros_like(sums), where=neighbours > 0)
     turned = np.zeros((len(places), 3))
     np.add.at(turned, place, normals)
-    cosines = np.sum(_unit(turned) * mean, axis=1, keepdims=True)
+    cosines = np.sum(unit(turned) * mean, axis=1, keepdims=True)
     raw = np.where(neighbours > 0, np.arccos(np.clip(cosines, -1.0, 1.0)) / np.pi, 0.0)
     blurred = (raw + _gather(edges, raw[edges[:, 1]], raw[edges[:, 0]], len(places))) / (
         neighbours + 1
@@ -60,9 +62,3 @@ def _gather(edges: Integers, to_first: Floats, to_second: Floats, count: int) ->
     np.add.at(sums, edges[:, 0], to_first)
     np.add.at(sums, edges[:, 1], to_second)
     return sums
-
-
-def _unit(vectors: Floats) -> Floats:
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    unit: Floats = np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0)
-    return unit

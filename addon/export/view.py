@@ -118,28 +118,22 @@ def border(region: Region, depsgraph: bpy.types.Depsgraph) -> Border:
     width, height = region.size
     b_scene: Any = depsgraph.scene_eval
     b_render, b_space, b_camera = b_scene.render, region.b_space, region.camera_object
-    whole = np.array([(0.0, 0.0), (width, height)])
-    if b_camera is not None:
+    corners = np.array([(0.0, 0.0), (width, height)])
+    if b_camera is not None and b_render.use_border:
         frame = _frame(region, b_camera.evaluated_get(depsgraph), b_scene)
-        owner, base = (b_render, frame) if b_render.use_border else (None, whole)
-    else:
-        owner, base = (b_space, whole) if b_space.use_render_border else (None, whole)
-    corners = base
-    if owner is not None:
-        names = ("min", "max")
-        parts = np.array(
-            [
-                [getattr(owner, f"{_PREFIX[owner is b_space]}_{n}_{axis}") for axis in "xy"]
-                for n in names
-            ]
-        )
-        corners = base[0] + parts * (base[1] - base[0])
+        corners = _part_of(frame, b_render, "border")
+    elif b_camera is None and b_space.use_render_border:
+        corners = _part_of(corners, b_space, "render_border")
     lower = np.clip(np.floor(corners[0] + 0.5), 0, [width - 1, height - 1]).astype(int)
     upper = np.clip(np.floor(corners[1] + 0.5), lower + 1, [width, height]).astype(int)
     return Border(int(lower[0]), int(lower[1]), *(int(size) for size in upper - lower))
 
 
-_PREFIX = {True: "render_border", False: "border"}
+def _part_of(corners: Doubles, owner: Any, prefix: str) -> Doubles:
+    """(2, 2): the corners of the part of a rectangle that a border of Blender's leaves."""
+    parts = [[getattr(owner, f"{prefix}_{end}_{axis}") for axis in "xy"] for end in ("min", "max")]
+    made: Doubles = corners[0] + np.array(parts) * (corners[1] - corners[0])
+    return made
 
 
 def convert_settings(

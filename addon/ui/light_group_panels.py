@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from .panel import EnginePanel
+from .panel import EnginePanel, register_panels
 
 
 class BASICRT_VIEWLAYER_PT_light_groups(EnginePanel, bpy.types.Panel):
@@ -68,14 +68,4 @@ _PANELS = (
     BASICRT_WORLD_PT_light_group,
 )
 
-
-def register() -> None:
-    """Show the panels."""
-    for panel in _PANELS:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    """Hide them."""
-    for panel in reversed(_PANELS):
-        bpy.utils.unregister_class(panel)
+register, unregister = register_panels(_PANELS)

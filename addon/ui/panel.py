@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import Any
+
+import bpy
 
 from ..engine import BasicRTRenderEngine
 
@@ -27,3 +30,10 @@ class EnginePanel:
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         return self.layout.column()
+
+
+def register_panels(panels: Sequence[type]) -> tuple[Callable[[], None], Callable[[], None]]:
+    """What shows these panels, and what hides them again."""
+    make: Any = bpy.utils.register_classes_factory
+    register, unregister = make(panels)
+    return register, unregister

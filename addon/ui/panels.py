@@ -13,6 +13,7 @@ from ..properties import settings_of
 from ..properties.choice import Choice, has_cycles
 from ..report import shown_warnings
 from .panel import EnginePanel as _Panel
+from .panel import register_panels
 
 
 def _draw(column: Any, context: Any, name: str) -> None:
@@ -315,7 +316,18 @@ class BASICRT_VIEW3D_PT_lighting(_ViewportPanel, bpy.types.Panel):
 
     def draw(self, context: Any) -> None:
         """Blender's callback."""
-        self.layout.prop(context.space_data.shading, "use_scene_lights_render")
+        shading = context.space_data.shading
+        column = self.layout.column()
+        column.prop(shading, "use_scene_lights_render")
+        column.prop(shading, "use_scene_world_render")
+        if shading.use_scene_world_render:
+            return
+        row = column.row()
+        row.scale_y = 0.6
+        row.template_icon_view(shading, "studio_light", scale_popup=3)
+        column.prop(shading, "studiolight_rotate_z", text="Rotation")
+        column.prop(shading, "studiolight_intensity")
+        column.prop(shading, "studiolight_background_alpha")
 
 
 class BASICRT_VIEW3D_PT_render_pass(_ViewportPanel, bpy.types.Panel):
@@ -386,14 +398,4 @@ _PANELS = (
     BASICRT_VIEW3D_PT_render_pass,
 )
 
-
-def register() -> None:
-    """Show the panels."""
-    for panel in _PANELS:
-        bpy.utils.register_class(panel)
-
-
-def unregister() -> None:
-    """Hide them."""
-    for panel in reversed(_PANELS):
-        bpy.utils.unregister_class(panel)
+register, unregister = register_panels(_PANELS)

@@ -14,10 +14,9 @@ from support.blender import (
     add_mesh,
     add_plane,
     export,
-    make_cycles_neutral,
     new_material,
     new_scene,
-    render_passes,
+    passes_of_both,
     set_world,
 )
 
@@ -56,13 +55,7 @@ def both(
     folder = tmp_path_factory.mktemp("groups")
     scene = scene_of_groups()
     scene.render.film_transparent = request.param
-    make_cycles_neutral(scene)
-    pictures = []
-    for engine in ("BASICRT", "CYCLES"):
-        scene.render.engine = engine
-        passes = render_passes(folder)
-        pictures.append({name.removeprefix("ViewLayer."): passes[name] for name in passes})
-    return pictures[0], pictures[1]
+    return passes_of_both(scene, folder)
 
 
 def test_the_passes_are_cycles(both: Any) -> None:

@@ -18,9 +18,9 @@ from support.blender import (
     add_mesh,
     add_plane,
     empty_material,
-    make_cycles_neutral,
     new_material,
     new_scene,
+    passes_of_both,
     render_passes,
     set_world,
 )
@@ -124,13 +124,7 @@ def both(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], dict
     """Our passes and Cycles', without the view layer's name."""
     folder = tmp_path_factory.mktemp("passes")
     scene = scene_of_all_kinds()
-    make_cycles_neutral(scene)
-    pictures = []
-    for engine in ("BASICRT", "CYCLES"):
-        scene.render.engine = engine
-        passes = render_passes(folder)
-        pictures.append({name.removeprefix("ViewLayer."): passes[name] for name in passes})
-    return pictures[0], pictures[1]
+    return passes_of_both(scene, folder)
 
 
 @pytest.fixture

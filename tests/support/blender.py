@@ -130,6 +130,17 @@ def make_cycles_neutral(scene: Any) -> None:
         offsets.shadow_terminator_geometry_offset = offsets.shadow_terminator_shading_offset = 0
 
 
+def passes_of_both(scene: Any, folder: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Our passes and Cycles' of a scene with one view layer, without that one's name."""
+    make_cycles_neutral(scene)
+    pictures = []
+    for engine in ("BASICRT", "CYCLES"):
+        scene.render.engine = engine
+        passes = render_passes(folder)
+        pictures.append({name.removeprefix("ViewLayer."): passes[name] for name in passes})
+    return pictures[0], pictures[1]
+
+
 def render_both(folder: Path) -> tuple[np.ndarray, np.ndarray]:
     """Our picture and Cycles' of the scene, at pixels' centres: for what has no noise."""
     scene = bpy.context.scene
