@@ -194,7 +194,7 @@ bool is_same_layer(const EnvironmentLayer& a, const EnvironmentLayer& b) {
 }
 
 bool is_same_environment(const Environment& a, const Environment& b) {
-  return a.radiance == b.radiance && std::ranges::equal(a.layers, b.layers, is_same_layer);
+  return is_same_description(a, b) && std::ranges::equal(a.layers, b.layers, is_same_layer);
 }
 
 // What an instance must have as before for lights and volumes to be what they were.

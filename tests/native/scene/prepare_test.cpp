@@ -83,6 +83,18 @@ Mesh large_mesh(std::uint32_t cells) {
   return mesh;
 }
 
+TEST(Prepare, a_changed_environment_is_prepared_again) {
+  Scene scene = scene_of(one_triangle(0));
+  Report report;
+  PreparedScene prepared = prepare(scene, report);
+  scene.environment.radiance = Color(2.0f);
+  prepared = prepare(scene, report, std::move(prepared));
+  EXPECT_EQ(prepared.lights.environment_radiance({0, 0, 1}, false), Color(2.0f));
+  scene.environment.light_group = 3;
+  prepared = prepare(scene, report, std::move(prepared));
+  EXPECT_EQ(prepared.lights.environment_light_group(), 3);
+}
+
 TEST(PrepareWatched, gives_what_prepare_gives_and_a_fraction_that_never_falls) {
   const Scene scene = scene_of(large_mesh(700));
   Report report;
