@@ -9,10 +9,13 @@ import sys
 import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
 # Datablocks that carry a shader node tree.
 Shaded = bpy.types.Material | bpy.types.World | bpy.types.Light
@@ -192,6 +195,38 @@ def is_green_down(node: bpy.types.Node) -> bool:
     return bool(getattr(node, "convention", "OPENGL") == "DIRECTX")
 
 
+@dataclass(frozen=True)
+class BakePixels:
+    """Which triangle each pixel of an image is on, -1 as an unsigned number: none; where on it."""
+
+    triangles: NDArray[np.uint32]  # (height, width)
+    barycentrics: NDArray[np.float32]  # (height, width, 2), the first and the second corner's share
+    # (height, width, 4): how the first's and the second's change, each to the right and upwards
+    changes: NDArray[np.float32]
+    seeds: NDArray[np.uint32] | None  # (height, width); None: pixels don't share their noise
+
+
+def bake_pixels(b_layer: Any, width: int, height: int) -> BakePixels:
+    """What Blender hands an engine for baking: seed, triangle and shares in 4.2, later another order."""
+
+    def read(name: str) -> NDArray[np.float32]:
+        b_pass = b_layer.passes[name]
+        values = np.empty(width * height * b_pass.channels, np.float32)
+        b_pass.rect.foreach_get(values)
+        return values.reshape(height, width, b_pass.channels)
+
+    def whole_numbers(values: NDArray[np.float32]) -> NDArray[np.uint32]:
+        return np.ascontiguousarray(values).view(np.uint32)
+
+    primitive, changes = read("BakePrimitive"), read("BakeDifferential")
+    if primitive.shape[2] == 4:
+        seeds = whole_numbers(primitive[..., 0])
+        return BakePixels(whole_numbers(primitive[..., 1]), primitive[..., 2:4], changes, seeds)
+    has_seeds = b_layer.passes.get("BakeSeed") is not None
+    seed_pass = whole_numbers(read("BakeSeed")[..., 0]) if has_seeds else None
+    return BakePixels(whole_numbers(primitive[..., 2]), primitive[..., 0:2], changes, seed_pass)
+
+
 # What Blender called passes before 5.0.
 _OLD_PASS_NAMES = {
     "Object Index": "IndexOB",
@@ -209,6 +244,7 @@ _OLD_PASS_NAMES = {
     "Volume Indirect": "VolumeInd",
     "Emission": "Emit",
     "Environment": "Env",
+    "Ambient Occlusion": "AO",
 }
 
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from ..export.denoising import Denoising
     from ..sync.scene_sync import Export
+    from .bake import ObjectBake
     from .viewport import Viewport
 
 # How often Blender is told of progress, and asked whether to stop.
@@ -55,6 +56,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         super().__init__(*args, **kwargs)
         self.exported: Export | None = None
         self.viewport: Viewport | None = None
+        self.baking: ObjectBake | None = None
         self.warnings = Report()  # of all view layers
         self.failure: str | None = None
         self.overrides = command_line.Overrides()
@@ -62,6 +64,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
     def update(self, data: Any = None, depsgraph: Any = None) -> None:
         """Blender's callback, with scene data locked: export everything a render needs."""
         self.exported, self.failure = None, None
+        if self._is_baking():
+            return
         with caught(self._remember_failure):
             self._export(depsgraph)
 
@@ -76,6 +80,38 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
                 complete_without_pixels(self)
             else:
                 self._trace(exported, depsgraph)
+
+    def _is_baking(self) -> bool:
+        """Whether it is bake() that Blender will call: what a render exports would be of no use then.
+
+        Blender doesn't say so of a bake by a script, but then there is no picture to be made, unless
+        one was made before.
+        """
+        return self.resolution_x == 0 or bpy.app.is_job_running("OBJECT_BAKE")
+
+    def bake(  # type: ignore[override]
+        self,
+        depsgraph: Any,
+        b_object: Any,
+        pass_type: str,
+        pass_filter: int,
+        width: int,
+        height: int,
+    ) -> None:
+        """Blender's callback: bake an object into one image."""
+        with caught(self._fail_baking):
+            compat.check_native()
+            from ..export.baking import convert_plan
+            from .bake import ObjectBake
+
+            if self.baking is None:
+                self.overrides = self.given_overrides or command_line.overrides()
+                self.baking = ObjectBake(self, depsgraph, self.overrides, self.warnings)
+            plan = convert_plan(depsgraph.scene, pass_type, pass_filter)
+            self.baking.bake_image(b_object, plan, width, height)
+
+    def _fail_baking(self, message: str) -> None:
+        self.report({"ERROR"}, message)
 
     def view_update(self, context: Any, depsgraph: Any) -> None:
         """Blender's callback: something changed in the scene that a viewport shows."""

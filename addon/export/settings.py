@@ -38,6 +38,7 @@ _PASS_SWITCHES = {
     "Transmission Color": "use_pass_transmission_color",
     "Emission": "use_pass_emit",
     "Environment": "use_pass_environment",
+    "Ambient Occlusion": "use_pass_ambient_occlusion",
 }
 # Switches that Cycles adds to view layers: not there where it is switched off.
 _CYCLES_PASS_SWITCHES = {
@@ -112,14 +113,15 @@ def _is_enabled(name: str, b_view_layer: Any) -> bool:
     return name == "Combined"
 
 
-def _convert_mist(b_world: bpy.types.World | None, settings: basicrt.RenderSettings) -> None:
-    """Blender's falloffs are powers."""
+def _convert_world(b_world: bpy.types.World | None, settings: basicrt.RenderSettings) -> None:
+    """What a world says of passes. Blender's falloffs are powers."""
     if b_world is None:
         return
     mist = b_world.mist_settings
     falloffs = {"QUADRATIC": 2.0, "LINEAR": 1.0, "INVERSE_QUADRATIC": 0.5}
     settings.mist_start, settings.mist_depth = mist.start, mist.depth
     settings.mist_falloff = falloffs[mist.falloff]
+    settings.ao_distance = b_world.light_settings.distance
 
 
 def seed_of_frame(seed: int, b_scene: bpy.types.Scene) -> int:
@@ -179,7 +181,7 @@ def convert(
     settings.exposure = chosen.film_exposure
     settings.shutter_curve = shutter_curve(b_render) if b_render.use_motion_blur else []
     settings.film_transparent = b_render.film_transparent
-    _convert_mist(compat.view_layer_world(b_scene, b_view_layer), settings)
+    _convert_world(compat.view_layer_world(b_scene, b_view_layer), settings)
     asked = [info.name for info in enabled_passes(b_view_layer)]
     denoised = denoising.convert(b_scene, b_view_layer)
     settings.passes = list(dict.fromkeys((*asked, *(denoised.passes if denoised else ()))))

@@ -53,6 +53,7 @@ CYCLES_NAMES = {
     "denoising_input_passes": "denoising_input_passes",
     "denoising_prefilter": "denoising_prefilter",
     "denoising_quality": "denoising_quality",
+    "bake_type": "bake_type",
 }
 
 

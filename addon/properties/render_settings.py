@@ -42,6 +42,20 @@ DENOISING_PREFILTERS = (
     ("FAST", "Fast", "Their noise is taken away together with the picture's"),
     ("ACCURATE", "Accurate", "Their noise is taken away first: the best, and the slowest"),
 )
+BAKE_TYPES = (
+    ("COMBINED", "Combined", "All light that leaves the surface"),
+    ("AO", "Ambient Occlusion", "How open the surface is to light from everywhere"),
+    ("SHADOW", "Shadow", "The share of light that other objects leave"),
+    ("POSITION", "Position", "Where the surface is in the world"),
+    ("NORMAL", "Normal", "Where it faces, bumps included"),
+    ("UV", "UV", "Its texture coordinates, those that are active for rendering"),
+    ("ROUGHNESS", "Roughness", "How rough its reflections are"),
+    ("EMIT", "Emission", "What it emits"),
+    ("ENVIRONMENT", "Environment", "The world, seen from the origin towards each place"),
+    ("DIFFUSE", "Diffuse", "Light that it reflects diffusely"),
+    ("GLOSSY", "Glossy", "Light that it reflects as a gloss"),
+    ("TRANSMISSION", "Transmission", "Light that it transmits"),
+)
 DENOISING_QUALITIES = (
     ("HIGH", "High", "For final pictures"),
     ("BALANCED", "Balanced", "Faster, a little less exact"),
@@ -90,6 +104,7 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         denoising_input_passes: str
         denoising_prefilter: str
         denoising_quality: str
+        bake_type: str
         tile_size: int
         bvh_builder: str
     else:
@@ -283,6 +298,12 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
             description="How much time the denoiser takes",
             items=DENOISING_QUALITIES,
             default="HIGH",
+        )
+        bake_type: EnumProperty(
+            name="Bake Type",
+            description="What is baked",
+            items=BAKE_TYPES,
+            default="COMBINED",
         )
         tile_size: IntProperty(
             name="Tile Size",

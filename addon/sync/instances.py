@@ -217,6 +217,11 @@ class Instances:
                 self._shapes.release(known.shape)
         self._shapes.sweep()
 
+    def index_of(self, number: int) -> int | None:
+        """Where in Scene.instances an object is that is placed by itself, by its number."""
+        known = self._known.get((number, 0, ()))
+        return known.index if known is not None else None
+
     def _replace_instances(
         self, before: dict[Key, _Known | None], kept: list[basicrt.Instance | None], moved: bool
     ) -> None:

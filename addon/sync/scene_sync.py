@@ -101,6 +101,10 @@ class SceneSync:
         """Remember what Blender says has changed, for the next update()."""
         self._changes.note(depsgraph)
 
+    def index_of(self, number: int) -> int | None:
+        """Where in Scene.instances an object is that is placed by itself, by its number."""
+        return self._instances.index_of(number)
+
     def rescan(self) -> None:
         """Something else may be shown now, for the next update()."""
         self._changes.is_selection = True

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from . import core_panels, light_group_panels, panels
+from . import bake_panels, core_panels, light_group_panels, panels
 
 
 def register() -> None:
     """Show the panels."""
     panels.register()
+    bake_panels.register()
     light_group_panels.register()
     core_panels.register()
 
@@ -17,4 +18,5 @@ def unregister() -> None:
     """Hide them again."""
     core_panels.unregister()
     light_group_panels.unregister()
+    bake_panels.unregister()
     panels.unregister()

@@ -255,6 +255,7 @@ class BASICRT_VIEWLAYER_PT_passes(_Panel, bpy.types.Panel):
         column = self.layout.column(heading="Other", align=True)
         column.prop(view_layer, "use_pass_emit", text="Emission")
         column.prop(view_layer, "use_pass_environment", text="Environment")
+        column.prop(view_layer, "use_pass_ambient_occlusion", text="Ambient Occlusion")
         b_cycles = getattr(view_layer, "cycles", None)
         for name, text in (
             ("use_pass_volume_direct", "Volume Direct"),

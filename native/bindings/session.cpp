@@ -28,9 +28,9 @@ constexpr Seconds signal_interval{0.1};
 // are guarded by the GIL.
 class BoundSession {
  public:
-  BoundSession(PreparedScene scene, SessionOptions options)
+  BoundSession(PreparedScene scene, SessionOptions options, std::optional<Baking> baking)
       : tree_bytes_(scene.tracer.memory()),
-        session_(std::make_unique<Session>(std::move(scene), options)),
+        session_(std::make_unique<Session>(std::move(scene), options, std::move(baking))),
         rect_(session_->rect()) {}
 
   // Waits for a tile with the GIL released. Nothing: the time is up. Ends the iteration where there are no more.
@@ -103,19 +103,42 @@ PreparedScene prepare_for_python(const Scene& scene, Report& report, int threads
   return prepare_watched(scene, report, threads, watch);
 }
 
+// Baking needs no camera, but the scene does: one stands in for it.
+class StandInCamera {
+ public:
+  StandInCamera(BoundScene& scene, bool is_needed) : scene_(scene), is_needed_(is_needed && !scene.scene().camera) {
+    if (is_needed_) scene_.edit().camera = OrthographicCamera{};
+  }
+  ~StandInCamera() {
+    if (is_needed_) scene_.edit().camera.reset();
+  }
+  StandInCamera(const StandInCamera&) = delete;
+  StandInCamera& operator=(const StandInCamera&) = delete;
+
+ private:
+  BoundScene& scene_;
+  bool is_needed_;
+};
+
 std::unique_ptr<BoundSession> start_session(BoundScene& scene, int threads, int tile_size,
-                                            const PreparingCallback& preparing) {
+                                            const PreparingCallback& preparing,
+                                            const std::optional<BakeTarget>& bake_target,
+                                            const BakeSettings& bake_settings) {
   if (threads < 0) throw SceneError("Session.threads", "must be at least 0, is " + std::to_string(threads));
   if (tile_size < 1) throw SceneError("Session.tile_size", "must be at least 1, is " + std::to_string(tile_size));
   Report report;
   PreparedScene prepared;
+  std::optional<Baking> baking;
+  if (bake_target) validate(*bake_target, bake_settings, SceneLease(scene).scene());
   {
+    const StandInCamera camera(scene, bake_target.has_value());
     const SceneLease lease(scene);
     prepared = prepare_for_python(lease.scene(), report, threads, preparing);
+    if (bake_target) baking.emplace(*bake_target, bake_settings, lease.scene(), prepared);
   }
   issue_warnings(report, 1);
-  return std::make_unique<BoundSession>(std::move(prepared),
-                                        SessionOptions{.threads = threads, .tile_size = tile_size});
+  return std::make_unique<BoundSession>(std::move(prepared), SessionOptions{.threads = threads, .tile_size = tile_size},
+                                        std::move(baking));
 }
 
 struct TileIterator {
@@ -226,9 +249,11 @@ void register_session(py::module_& m) {
 Prepares the scene first and keeps its own copy of it. threads: 0 is one for each processor. The values depend on
 neither threads nor tile_size. preparing is called with the fraction done, from 0 to 1, several times in 100 ms while a
 long preparation goes on; what it raises ends that and is raised again. Raises SceneError for a scene that can't be rendered, MemoryError where memory runs
-out; warns with SceneWarning. As a context manager it stops and joins its threads at the end.)")
+out; warns with SceneWarning. With bake_target the picture is of places on a mesh instead of what the camera sees; see
+bake(). As a context manager it stops and joins its threads at the end.)")
       .def(py::init(&start_session), py::arg("scene"), py::kw_only(), py::arg("threads") = 0, py::arg("tile_size") = 64,
-           py::arg("preparing") = py::none())
+           py::arg("preparing") = py::none(), py::arg("bake_target") = py::none(),
+           py::arg("bake_settings") = BakeSettings{})
       .def(
           "tiles",
           [](BoundSession& self, double poll_seconds) {

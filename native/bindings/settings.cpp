@@ -3,6 +3,7 @@
 #include "scene/settings.h"
 #include "base/error.h"
 #include "described.h"
+#include "pass_list.h"
 #include "register.h"
 
 namespace basicrt::bindings {
@@ -21,23 +22,6 @@ void add_filter(std::vector<Attribute<Settings>>& attributes) {
          [part](Settings& self, py::handle value, const std::string& item) { part.set(self.filter, value, item); }});
 }
 
-std::vector<std::string> pass_names(PassLayout layout) {
-  std::vector<std::string> names;
-  for (const PassInfo& info : passes)
-    if (layout.has(info.pass)) names.emplace_back(info.name);
-  return names;
-}
-
-PassLayout read_passes(py::handle value, const std::string& item) {
-  if (py::isinstance<py::str>(value)) refuse_type(item, "must be a list of names", value);
-  std::vector<std::string_view> known;
-  for (const PassInfo& info : passes) known.push_back(info.name);
-  PassLayout layout = PassLayout::none();
-  for (const std::string& name : PythonValue<std::vector<std::string>>::read(value, item))
-    layout.enable(passes[read_enum(py::str(name), item, known)].pass);
-  return layout;
-}
-
 }  // namespace
 
 void register_settings(py::module_& m) {
@@ -54,10 +38,7 @@ void register_settings(py::module_& m) {
 
   std::vector<Attribute<Settings>> attributes = attributes_of<Settings>();
   add_filter(attributes);
-  attributes.push_back(
-      {"passes", "names of the passes to make, as in passes()", "collections.abc.Iterable[str]", "list[str]",
-       [](const Settings& self) { return py::cast(pass_names(self.passes)); },
-       [](Settings& self, py::handle value, const std::string& item) { self.passes = read_passes(value, item); }});
+  attributes.push_back(passes_attribute(&Settings::passes));
   bind_fields<Settings>(m, "RenderSettings", "How a picture is made.", attributes);
 }
 

@@ -45,6 +45,7 @@ SWITCHES = [
     "transmission_color",
     "emit",
     "environment",
+    "ambient_occlusion",
     "cryptomatte_object",
     "cryptomatte_material",
     "cryptomatte_asset",
@@ -184,6 +185,7 @@ def test_geometry_is_cycles_pixel_by_pixel(
         ("Transmission Indirect", 0.04),
         ("Transmission Color", 0.01),
         ("Emission", 0.01),
+        ("Ambient Occlusion", 0.02),
         ("Denoising Normal", 0.02),
     ],
 )

@@ -17,6 +17,8 @@ from ._native import (
     AmbientOcclusionOperation,
     AreaLight,
     AttributeOperation,
+    BakeSettings,
+    BakeTarget,
     BrickOperation,
     BumpOperation,
     ChangeSpaceOperation,
@@ -105,6 +107,7 @@ from ._native import (
     native_version,
     passes,
 )
+from .baking import BAKE_KINDS, BakePlan, bake, bake_session
 from .denoising import DenoiserError, check_denoiser, denoise
 from .images import read_exr, write_exr, write_png
 from .merging import merge
@@ -115,10 +118,14 @@ from .scene_files import load_scene
 __version__ = "0.1.0"
 
 __all__ = [
+    "BAKE_KINDS",
     "AddShader",
     "AmbientOcclusionOperation",
     "AreaLight",
     "AttributeOperation",
+    "BakePlan",
+    "BakeSettings",
+    "BakeTarget",
     "BrickOperation",
     "BumpOperation",
     "ChangeSpaceOperation",
@@ -205,6 +212,8 @@ __all__ = [
     "WhiteNoiseOperation",
     "WireframeOperation",
     "__version__",
+    "bake",
+    "bake_session",
     "check_denoiser",
     "denoise",
     "load_scene",

@@ -16,6 +16,8 @@ __all__: list[str] = [
     "AmbientOcclusionOperation",
     "AreaLight",
     "AttributeOperation",
+    "BakeSettings",
+    "BakeTarget",
     "BrickOperation",
     "BumpOperation",
     "ChangeSpaceOperation",
@@ -5925,6 +5927,7 @@ class RenderSettings:
     mist_start: metres from the camera where the pass Mist begins; at least 0
     mist_depth: metres from there to where the mist is complete; at least 0
     mist_falloff: power of the share of that distance; above 0
+    ao_distance: metres within which the pass Ambient Occlusion looks for surfaces; 0 is no limit; at least 0
     shutter_curve: how far the shutter is open at equally spaced times; none: wide open throughout; at least 0
     integrator: how light is computed
     max_bounces: scatterings after which a path ends; in [0, 1024]
@@ -5972,6 +5975,7 @@ class RenderSettings:
         mist_start: float = 5.0,
         mist_depth: float = 25.0,
         mist_falloff: float = 2.0,
+        ao_distance: float = 10.0,
         shutter_curve: collections.abc.Iterable[float] = [],
         integrator: str = "path",
         max_bounces: int = 12,
@@ -6019,6 +6023,13 @@ class RenderSettings:
         """
     @adaptive_threshold.setter
     def adaptive_threshold(self, value: float) -> None: ...
+    @property
+    def ao_distance(self) -> float:
+        """
+        metres within which the pass Ambient Occlusion looks for surfaces; 0 is no limit; at least 0
+        """
+    @ao_distance.setter
+    def ao_distance(self, value: float) -> None: ...
     @property
     def blur_glossy(self) -> float:
         """
@@ -6674,6 +6685,116 @@ class Scene:
     @world_volume.setter
     def world_volume(self, arg1: typing.SupportsInt | typing.SupportsIndex | None) -> None: ...
 
+class BakeTarget:
+    """
+    A picture of places on a mesh, to be laid onto it.
+
+    instance: index into Scene.instances, of a mesh. For each pixel, row 0 at the bottom: triangles (height, width), indices
+    into the mesh's, or NOWHERE; barycentrics (height, width, 2), the shares of the triangle's second and third corner;
+    changes (height, width, 2, 2), by how much these change across the pixel, to the right and upwards: its samples are
+    spread over that, as far as it is in the triangle; seeds (height, width): pixels with the same one have the same noise.
+    """
+
+    NOWHERE: typing.ClassVar[int] = 4294967295
+    def __init__(
+        self,
+        instance: typing.SupportsInt | typing.SupportsIndex,
+        triangles: numpy.typing.ArrayLike,
+        barycentrics: numpy.typing.ArrayLike,
+        *,
+        changes: numpy.typing.ArrayLike | None = None,
+        seeds: numpy.typing.ArrayLike | None = None,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def height(self) -> int: ...
+    @property
+    def instance(self) -> int: ...
+    @property
+    def width(self) -> int: ...
+
+class BakeSettings:
+    """
+    What is asked of the places of a BakeTarget.
+
+    diffuse: diffuse reflection by the mesh
+    glossy: glossy reflection by the mesh
+    transmission: transmission by the mesh
+    emission: what the mesh emits
+    indirect_light: light that other surfaces have scattered
+    environment: not the mesh, but what is seen from the world's origin towards each place
+    from_camera: the mesh is seen from the camera, from in front of it even so; else along its normals
+    passes: names of the passes to make, as in passes()
+    """
+    def __init__(
+        self,
+        diffuse: bool = True,
+        glossy: bool = True,
+        transmission: bool = True,
+        emission: bool = True,
+        indirect_light: bool = True,
+        environment: bool = False,
+        from_camera: bool = False,
+        passes: collections.abc.Iterable[str] = ["Combined"],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def diffuse(self) -> bool:
+        """
+        diffuse reflection by the mesh
+        """
+    @diffuse.setter
+    def diffuse(self, value: bool) -> None: ...
+    @property
+    def emission(self) -> bool:
+        """
+        what the mesh emits
+        """
+    @emission.setter
+    def emission(self, value: bool) -> None: ...
+    @property
+    def environment(self) -> bool:
+        """
+        not the mesh, but what is seen from the world's origin towards each place
+        """
+    @environment.setter
+    def environment(self, value: bool) -> None: ...
+    @property
+    def from_camera(self) -> bool:
+        """
+        the mesh is seen from the camera, from in front of it even so; else along its normals
+        """
+    @from_camera.setter
+    def from_camera(self, value: bool) -> None: ...
+    @property
+    def glossy(self) -> bool:
+        """
+        glossy reflection by the mesh
+        """
+    @glossy.setter
+    def glossy(self, value: bool) -> None: ...
+    @property
+    def indirect_light(self) -> bool:
+        """
+        light that other surfaces have scattered
+        """
+    @indirect_light.setter
+    def indirect_light(self, value: bool) -> None: ...
+    @property
+    def passes(self) -> list[str]:
+        """
+        names of the passes to make, as in passes()
+        """
+    @passes.setter
+    def passes(self, value: collections.abc.Iterable[str]) -> None: ...
+    @property
+    def transmission(self) -> bool:
+        """
+        transmission by the mesh
+        """
+    @transmission.setter
+    def transmission(self, value: bool) -> None: ...
+
 class Tile:
     """
     Finished pixels of a rectangle, in the whole picture's coordinates: (0, 0) lower left.
@@ -6748,7 +6869,8 @@ class Session:
     Prepares the scene first and keeps its own copy of it. threads: 0 is one for each processor. The values depend on
     neither threads nor tile_size. preparing is called with the fraction done, from 0 to 1, several times in 100 ms while a
     long preparation goes on; what it raises ends that and is raised again. Raises SceneError for a scene that can't be rendered, MemoryError where memory runs
-    out; warns with SceneWarning. As a context manager it stops and joins its threads at the end.
+    out; warns with SceneWarning. With bake_target the picture is of places on a mesh instead of what the camera sees; see
+    bake(). As a context manager it stops and joins its threads at the end.
     """
     def __enter__(self) -> Session: ...
     def __exit__(self, arg0: typing.Any, arg1: typing.Any, arg2: typing.Any) -> None: ...
@@ -6759,6 +6881,8 @@ class Session:
         threads: typing.SupportsInt | typing.SupportsIndex = 0,
         tile_size: typing.SupportsInt | typing.SupportsIndex = 64,
         preparing: collections.abc.Callable[[float], None] | None = None,
+        bake_target: BakeTarget | None = None,
+        bake_settings: BakeSettings = ...,
     ) -> None: ...
     def stop(self) -> None:
         """

@@ -6,6 +6,7 @@
 
 #include "base/overloaded.h"
 #include "bsdf/bsdf.h"
+#include "bsdf/lobe_kind.h"
 
 namespace basicrt {
 
@@ -78,6 +79,23 @@ void Bsdf::remove_glossy(bool removes_reflection, bool removes_transmission) {
 
 void Bsdf::remove_opaque() {
   rebuild([]<class AnyLobe>(AnyLobe&) { return std::is_same_v<AnyLobe, Transparent>; });
+}
+
+void Bsdf::keep_kinds(std::uint32_t kinds) {
+  const bool reflects = (kinds & ray_glossy) != 0, transmits = (kinds & ray_transmission) != 0;
+  rebuild(Overloaded{[&](Dielectric& lobe) {
+                       if (!reflects) lobe.reflect_tint = Color(0.0f);
+                       if (!transmits) lobe.transmit_tint = Color(0.0f);
+                       return reflects || transmits;
+                     },
+                     [&](FilmDielectric& lobe) {
+                       lobe.is_reflecting = lobe.is_reflecting && reflects;
+                       lobe.is_transmitting = lobe.is_transmitting && transmits;
+                       return lobe.is_reflecting || lobe.is_transmitting;
+                     },
+                     [&]<class AnyLobe>(AnyLobe& lobe)
+                       requires(!is_two_sided<AnyLobe>)
+                     { return (ray_kind(reflection_kind_of(lobe)) & kinds) != 0; }});
 }
 
 float Bsdf::transmission_alpha() const {

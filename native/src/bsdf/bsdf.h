@@ -117,6 +117,12 @@ class Bsdf {
   // A better one, of what is scattered in one way: see pass_albedo.cpp.
   [[nodiscard]] Color albedo(Vec3f wo, ScatterKind kind) const;
 
+  // The mean of the lobes' normals on the surface's own side, or of those that scatter in one way; the smooth one where
+  // there are none. See pass_surface.cpp for this and the next.
+  [[nodiscard]] Vec3f mean_normal(std::optional<ScatterKind> kind = {}) const;
+  // The mean of those lobes that have one, as nodes have it, the root of microfacets' alpha; 1 where none does.
+  [[nodiscard]] float mean_roughness() const;
+
   [[nodiscard]] bool has_subsurface() const;
   // Of subsurface lobes: their mean where they have normals of their own, else the surface's own.
   [[nodiscard]] Vec3f subsurface_normal() const;
@@ -131,6 +137,8 @@ class Bsdf {
   // Leaves out reflection by microfacets and mirrors, transmission by them, or both.
   void remove_glossy(bool removes_reflection, bool removes_transmission);
   void remove_opaque();  // all but what passes straight through
+  // Leaves out all that scatters otherwise than rays of these kinds (RayKind bits) do, and what passes straight through.
+  void keep_kinds(std::uint32_t kinds);
   // The alpha of the smoothest interface that light is transmitted through; infinite where there is none.
   [[nodiscard]] float transmission_alpha() const;
 

@@ -43,6 +43,8 @@ class OrenNayar {
     return LobeSample{wi, value.value / value.pdf, value.pdf, false, ScatterKind::diffuse};
   }
 
+  [[nodiscard]] float roughness() const { return b_ / a_; }
+
  private:
   // The share of light that one bounce on white facets returns.
   [[nodiscard]] float albedo(float cos_theta) const {

@@ -2,10 +2,10 @@
 // What share of the light each way of scattering returns: the passes Diffuse Color and so on.
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "bsdf/albedo.h"
 #include "bsdf/bsdf.h"
+#include "bsdf/lobe_kind.h"
 
 namespace basicrt {
 namespace {
@@ -48,22 +48,6 @@ Color albedo_of(AnyDielectric lobe, float cos_theta, ScatterKind kind) {
   const Color smooth = lobe.albedo(cos_theta);
   if (!(lobe.alpha > 0)) return smooth;
   return smooth / glass_multiple_scattering(std::sqrt(lobe.alpha), lobe.eta, cos_theta, Color(1.0f));
-}
-
-// Lobes that reflect and transmit.
-template <class AnyLobe>
-constexpr bool is_two_sided = std::is_same_v<AnyLobe, Dielectric> || std::is_same_v<AnyLobe, FilmDielectric>;
-
-template <class AnyLobe>
-constexpr ScatterKind reflection_kind_of(const AnyLobe& /*lobe*/) {
-  if constexpr (std::is_same_v<AnyLobe, Transparent>)
-    return ScatterKind::transparent;
-  else if constexpr (std::is_same_v<AnyLobe, Translucent>)
-    return ScatterKind::transmission;
-  else if constexpr (requires { AnyLobe::reflection_kind; })
-    return AnyLobe::reflection_kind;
-  else
-    return ScatterKind::glossy;
 }
 
 }  // namespace

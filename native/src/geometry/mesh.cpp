@@ -116,13 +116,18 @@ void validate(const Mesh& mesh, std::string_view item) {
   }
 }
 
-Mesh remove_degenerate_triangles(Mesh mesh, std::string_view item, Report& report) {
+std::vector<std::uint32_t> usable_triangles(const Mesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  if (mesh.is_deforming()) return mesh;
   std::vector<std::uint32_t> kept;
   kept.reserve(count);
   for (std::uint32_t triangle = 0; triangle < count; ++triangle)
-    if (has_area(mesh, triangle)) kept.push_back(triangle);
+    if (mesh.is_deforming() || has_area(mesh, triangle)) kept.push_back(triangle);
+  return kept;
+}
+
+Mesh remove_degenerate_triangles(Mesh mesh, std::string_view item, Report& report) {
+  const std::size_t count = mesh.triangles.size();
+  const std::vector<std::uint32_t> kept = usable_triangles(mesh);
   if (kept.size() == count) return mesh;
   report.warn(std::string(item) + ": " + std::to_string(count - kept.size()) + " of " + std::to_string(count) +
               " triangles have no area and are left out");

@@ -86,6 +86,9 @@ struct Mesh {
 // wrong length.
 void validate(const Mesh& mesh, std::string_view item);
 
+// The triangles that remove_degenerate_triangles() leaves, in their order.
+[[nodiscard]] std::vector<std::uint32_t> usable_triangles(const Mesh& mesh);
+
 // The mesh without triangles that have no area (they can't be hit), which are counted in one warning. One that deforms
 // stays as it is: they may have one at another time.
 [[nodiscard]] Mesh remove_degenerate_triangles(Mesh mesh, std::string_view item, Report& report);

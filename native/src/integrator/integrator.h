@@ -15,10 +15,19 @@
 
 namespace basicrt {
 
+// What counts of surfaces that are baked.
+struct BakedParts {
+  std::uint32_t kinds = ray_diffuse | ray_glossy | ray_transmission;  // RayKind bits: in which ways it scatters
+  bool has_emission = true;
+};
+
 // Paths before their first surface: the camera ray of each, and the numbers it draws.
 struct CameraPaths {
   std::vector<Ray> rays;
   std::vector<Sampler> samplers;
+  // Of baking, which knows what each ray meets first: one for each ray, and of that only `parts` counts. Else none.
+  std::vector<Hit> first_hits;
+  BakedParts parts = {};
 
   void add(const Ray& ray, const Sampler& sampler) {
     rays.push_back(ray);
@@ -27,6 +36,7 @@ struct CameraPaths {
   void clear() {
     rays.clear();
     samplers.clear();
+    first_hits.clear();
   }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(rays.size()); }
 };

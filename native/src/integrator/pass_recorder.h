@@ -40,6 +40,10 @@ class PassRecorder {
     if (is_active_ && has_features_[sample] == 0) values_.add(sample, Pass::denoising_albedo, radiance);
   }
 
+  void record_roughness(std::uint32_t sample, float roughness) { values_.add(sample, Pass::roughness, roughness); }
+  // How much of the sky is to be seen of a surface that the camera sees, and of the surface itself.
+  void record_openness(std::uint32_t sample, Color share) { values_.add(sample, Pass::ambient_occlusion, share); }
+
   // A path's first scattering.
   void note_scattering(std::uint32_t sample, const Bsdf& bsdf, Vec3f wo, const BsdfSample& scattered);
   void note_volume_scattering(std::uint32_t sample);

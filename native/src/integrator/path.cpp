@@ -33,8 +33,8 @@ PathIntegrator::PathIntegrator(const PreparedScene& scene)
 
 void PathIntegrator::render(const CameraPaths& paths, std::span<PixelSample> samples) {
   begin(paths, samples);
-  while (!paths_.empty()) {
-    extend();
+  for (bool has_hits = is_baking_; !paths_.empty(); has_hits = false) {
+    if (!has_hits) extend();
     shade(samples);
     connect(samples);
   }
@@ -48,6 +48,9 @@ void PathIntegrator::begin(const CameraPaths& paths, std::span<PixelSample> samp
   for (std::uint32_t i = 0; i < paths.size(); ++i)
     paths_.push_back({.sample = i, .media = i, .sampler = paths.samplers[i]});
   if (has_volumes_) find_camera_media();
+  hits_ = paths.first_hits;
+  is_baking_ = !hits_.empty();
+  baked_parts_ = paths.parts;
 }
 
 void PathIntegrator::extend() { find_hits(scene_.tracer, rays_, hits_); }
@@ -89,13 +92,17 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
       paths_[kept++] = path;
       continue;
     }
-    if (path.is_camera_ray && !sample.has_hit) note_first_hit(path.sample, point, sample);
+    const bool is_first_hit = path.is_camera_ray && !sample.has_hit;
+    if (is_first_hit) note_first_hit(path.sample, point, sample);
 
     SurfaceShading shading = shade_at(scene_, point, -ray.direction, [&] { return context_of(path, ray, point); });
+    if (is_first_hit) note_first_surface(path.sample, point, shading.bsdf, sample);
+    if (is_baking_ && path.is_camera_ray) keep_baked_parts(path, ray, shading, sample);
     if (path.shows_film) cut_out(path, ray, point, shading, sample);
     if (softens_caustics_) soften_caustics(scene_.settings, ray.kinds == ray_diffuse, path.least_pdf, shading.bsdf);
     if (path.is_camera_ray && scene_.instances[point.instance].is_shadow_catcher) {
       pass_catcher(path, ray, hit, point, shading.bsdf, sample);
+      if (is_baking_) continue;
       rays_[kept] = ray;
       paths_[kept++] = path;
       continue;
@@ -153,6 +160,7 @@ Color& PathIntegrator::sum_of(Destination destination, PixelSample& sample) {
     case Destination::catcher_unlit:
       return sample.catcher.unlit;
     case Destination::picture:
+    case Destination::occlusion:
       break;
   }
   return sample.radiance;
@@ -176,7 +184,10 @@ void PathIntegrator::record_surface(const Path& path, const Ray& ray, const Surf
                                     const SurfaceShading& shading) {
   if (path.destination != Destination::picture && path.destination != Destination::behind_catcher) return;
   const Bsdf& bsdf = shading.bsdf;
-  if (path.is_camera_ray) recorder_.record_seen(path.sample, -ray.direction, point, bsdf, path.throughput);
+  if (path.is_camera_ray) {
+    recorder_.record_seen(path.sample, -ray.direction, point, bsdf, path.throughput);
+    if (recorder_.values().has(Pass::ambient_occlusion)) sample_occlusion(path, ray, point, bsdf);
+  }
   if (!path.is_specular) return;
   recorder_.record_glow(path.sample, path.throughput * shading.emission);
   recorder_.record_features(path.sample, -ray.direction, point, bsdf, path.throughput);
@@ -192,6 +203,8 @@ void PathIntegrator::add_light(const Path& path, Color radiance, int light_group
 }
 
 void PathIntegrator::add_connection(const Connection& connection, PixelSample& sample) {
+  if (connection.destination == Destination::occlusion)
+    return recorder_.record_openness(connection.sample, connection.radiance);
   const Color clamped = clamp_light(connection.radiance, connection.limit);
   sum_of(connection.destination, sample) += clamped;
   recorder_.add_sampled_light(connection.sample, connection.filing, clamped);

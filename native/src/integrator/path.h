@@ -21,8 +21,9 @@ class PathIntegrator final : public Integrator {
 
  private:
   // Where a path's light goes: into the picture; where the path is one that leaves a shadow catcher, into one of the two
-  // sums that are compared; where it came through one, into what is darkened by that.
-  enum class Destination : std::uint8_t { picture, behind_catcher, catcher_lit, catcher_unlit };
+  // sums that are compared; where it came through one, into what is darkened by that. Into the pass Ambient Occlusion goes
+  // light from everywhere, which is no path's.
+  enum class Destination : std::uint8_t { picture, behind_catcher, catcher_lit, catcher_unlit, occlusion };
   // Scatterings so far, by kind.
   struct Bounces {
     int total = 0, diffuse = 0, glossy = 0, transmission = 0, transparent = 0, volume = 0;
@@ -82,6 +83,10 @@ class PathIntegrator final : public Integrator {
   [[nodiscard]] bool is_filed(const Path& path) const;
   void add_connection(const Connection& connection, PixelSample& sample);
   void record_surface(const Path& path, const Ray& ray, const SurfacePoint& point, const SurfaceShading& shading);
+  // For baking and the pass Ambient Occlusion: path_surface.cpp.
+  void keep_baked_parts(const Path& path, const Ray& ray, SurfaceShading& shading, PixelSample& sample) const;
+  void note_first_surface(std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
+  void sample_occlusion(const Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf);
   void cut_out(const Path& path, const Ray& ray, const SurfacePoint& point, SurfaceShading& shading,
                PixelSample& sample) const;
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
@@ -115,6 +120,8 @@ class PathIntegrator final : public Integrator {
   SceneProbe probe_;
   bool has_volumes_;
   bool softens_caustics_;
+  bool is_baking_ = false;
+  BakedParts baked_parts_;
   std::vector<Path> paths_;
   std::vector<Ray> rays_;           // the next one of each path
   std::vector<Path> caught_paths_;  // those that leave shadow catchers

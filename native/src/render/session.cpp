@@ -33,6 +33,11 @@ int usable_tile_size(const RenderSettings& settings, int tile_size) {
   return settings.adaptive_threshold > 0 ? (tile_size + block - 1) / block * block : tile_size;
 }
 
+PreparedScene seen_by(const std::optional<Baking>& baking, PreparedScene scene) {
+  if (baking) baking->apply_to(scene);
+  return scene;
+}
+
 // A tile that several threads may work on, one after another.
 struct SharedTile {
   std::mutex mutex;
@@ -43,6 +48,7 @@ struct SharedTile {
 
 struct Session::State {
   PreparedScene scene;
+  std::optional<Baking> baking;
   SessionOptions options;
   PixelFilter filter;
   SamplePlan plan;
@@ -68,8 +74,9 @@ struct Session::State {
 
   std::vector<std::jthread> workers;  // last, so that they end before what they use
 
-  State(PreparedScene scene_, SessionOptions options_)
-      : scene(std::move(scene_)),
+  State(PreparedScene scene_, SessionOptions options_, std::optional<Baking> baking_)
+      : scene(seen_by(baking_, std::move(scene_))),
+        baking(std::move(baking_)),
         options(options_),
         filter(scene.settings.filter),
         plan(plan_samples(scene.settings)),
@@ -82,6 +89,7 @@ struct Session::State {
   // With the mutex held.
   [[nodiscard]] bool is_done() const { return stop || tiles_handed_out == tiles.size(); }
   [[nodiscard]] double elapsed_seconds() const { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+  [[nodiscard]] const Baking* baking_or_none() const { return baking ? &*baking : nullptr; }
   [[nodiscard]] std::uint64_t sample_count() const { return pixel_count * (plan.round_ends.back() - plan.begin); }
   void work();
   void work_tile_by_tile(Worker& worker);
@@ -110,7 +118,7 @@ void Session::State::work_tile_by_tile(Worker& worker) {
     return !stop;
   };
   for (std::size_t i = next_turn++; i < tiles.size() && !stop; i = next_turn++) {
-    TileRender tile(scene, filter, plan, tiles[i]);
+    TileRender tile(scene, filter, plan, tiles[i], baking_or_none());
     while (!tile.is_done()) {
       if (!tile.render_round(worker, go_on)) return;
       samples_spared += tile.take_spared();
@@ -136,7 +144,7 @@ void Session::State::work_round_by_round(Worker& worker) {
     };
     SharedTile& tile = shared_tiles[turn % tiles.size()];
     const std::lock_guard lock(tile.mutex);
-    if (!tile.render) tile.render.emplace(scene, filter, plan, tiles[turn % tiles.size()]);
+    if (!tile.render) tile.render.emplace(scene, filter, plan, tiles[turn % tiles.size()], baking_or_none());
     if (tile.render->is_done()) continue;
     if (!tile.render->render_round(worker, go_on)) break;
     samples_spared += tile.render->take_spared();
@@ -154,8 +162,10 @@ void Session::State::hand_out(Tile tile) {
   changed.notify_all();
 }
 
-Session::Session(PreparedScene scene, SessionOptions options)
-    : state_(std::make_unique<State>(std::move(scene), options)) {
+Session::Session(PreparedScene scene, SessionOptions options) : Session(std::move(scene), options, std::nullopt) {}
+
+Session::Session(PreparedScene scene, SessionOptions options, std::optional<Baking> baking)
+    : state_(std::make_unique<State>(std::move(scene), options, std::move(baking))) {
   const int threads = state_->threads_at_work;
   for (int i = 0; i < threads; ++i) state_->workers.emplace_back([state = state_.get()] { state->work(); });
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "film/film.h"
+#include "integrator/baking.h"
 #include "scene/prepare.h"
 
 namespace basicrt {
@@ -31,6 +32,8 @@ struct Progress {
 class Session {
  public:
   explicit Session(PreparedScene scene, SessionOptions options = {});
+  // Bakes; `baking` is of this scene.
+  Session(PreparedScene scene, SessionOptions options, std::optional<Baking> baking);
   ~Session();  // stops
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

@@ -33,11 +33,13 @@ AccumulatorOptions accumulator_options(const PreparedScene& scene, const PixelFi
 
 Worker::Worker(const PreparedScene& scene) : integrator(make_integrator(scene)), samples(batch_size) {}
 
-TileRender::TileRender(const PreparedScene& scene, const PixelFilter& filter, const SamplePlan& plan, PixelRect rect)
+TileRender::TileRender(const PreparedScene& scene, const PixelFilter& filter, const SamplePlan& plan, PixelRect rect,
+                       const Baking* baking)
     : scene_(scene),
       filter_(filter),
       plan_(plan),
       rect_(rect),
+      baking_(baking),
       accumulator_(rect, scene.settings.passes, accumulator_options(scene, filter)) {
   if (scene.settings.adaptive_threshold > 0) noise_.emplace(rect.width, rect.height, scene.settings.adaptive_threshold);
 }
@@ -61,8 +63,21 @@ std::uint64_t TileRender::take_spared() { return std::exchange(spared_, 0); }
   worker.places.push_back({x, y, place.is_negative});
 }
 
+void TileRender::add_baked_path(Worker& worker, int x, int y, Sampler sampler, bool is_first) {
+  const std::optional<Baking::Start> start = baking_->start(scene_, rect_.x + x, rect_.y + y, sampler, is_first);
+  if (!start) return add_unseen(worker, x, y, false);
+  worker.paths.add(start->ray, sampler);
+  worker.paths.first_hits.push_back(start->hit);
+  worker.places.push_back({x, y, false});
+}
+
+Sampler TileRender::pixel_sampler(int x, int y) const {
+  const Vec2i pixel{rect_.x + x, rect_.y + y};
+  return {scene_.settings.sampler, baking_ != nullptr ? baking_->sampler_pixel(pixel.x, pixel.y) : pixel,
+          static_cast<std::uint64_t>(scene_.settings.seed)};
+}
+
 bool TileRender::render_round(Worker& worker, const std::function<bool(std::uint64_t)>& go_on) {
-  const RenderSettings& settings = scene_.settings;
   const int begin = next_round_ == 0 ? plan_.begin : plan_.round_ends[next_round_ - 1],
             end = plan_.round_ends[next_round_];
   ++next_round_;
@@ -74,10 +89,13 @@ bool TileRender::render_round(Worker& worker, const std::function<bool(std::uint
   for (int y = 0; y < rect_.height; ++y) {
     for (int x = 0; x < rect_.width; ++x) {
       if (noise_ && !noise_->is_open(x, y)) continue;
-      const Sampler pixel_sampler(settings.sampler, {rect_.x + x, rect_.y + y},
-                                  static_cast<std::uint64_t>(settings.seed));
+      const Sampler of_pixel = pixel_sampler(x, y);
       for (int sample = begin; sample < end; ++sample) {
-        add_path(worker, x, y, pixel_sampler.at_sample(static_cast<std::uint32_t>(sample)));
+        const Sampler sampler = of_pixel.at_sample(static_cast<std::uint32_t>(sample));
+        if (baking_ != nullptr)
+          add_baked_path(worker, x, y, sampler, sample == 0);
+        else
+          add_path(worker, x, y, sampler);
         if (worker.paths.size() == batch_size && !render_batch()) return false;
       }
     }
@@ -95,6 +113,7 @@ void TileRender::add_unseen(Worker& worker, int x, int y, bool is_negative) {
 
 void TileRender::flush(Worker& worker) {
   const std::span batch = std::span(worker.samples).first(worker.paths.size());
+  if (baking_ != nullptr) worker.paths.parts = baking_->parts();
   worker.integrator->render(worker.paths, batch);
   const PassValues& values = worker.integrator->passes().values();
   for (std::size_t i = 0; i < batch.size(); ++i) {

@@ -10,6 +10,7 @@
 
 #include "film/film.h"
 #include "film/noise_map.h"
+#include "integrator/baking.h"
 #include "integrator/integrator.h"
 #include "render/sample_plan.h"
 #include "sampling/filter.h"
@@ -38,8 +39,9 @@ struct Worker {
 
 class TileRender {
  public:
-  // All of them must outlive it.
-  TileRender(const PreparedScene& scene, const PixelFilter& filter, const SamplePlan& plan, PixelRect rect);
+  // All of them must outlive it. With a baking the picture is its target's.
+  TileRender(const PreparedScene& scene, const PixelFilter& filter, const SamplePlan& plan, PixelRect rect,
+             const Baking* baking = nullptr);
 
   [[nodiscard]] bool is_done() const;
   // Takes the samples of the next round. After each batch of them calls go_on(how many); where that returns false the
@@ -53,6 +55,8 @@ class TileRender {
 
  private:
   void add_path(Worker& worker, int x, int y, const Sampler& pixel_sample);
+  void add_baked_path(Worker& worker, int x, int y, Sampler sampler, bool is_first);
+  [[nodiscard]] Sampler pixel_sampler(int x, int y) const;
   void add_unseen(Worker& worker, int x, int y, bool is_negative);
   void flush(Worker& worker);
   void look_at_noise();
@@ -61,6 +65,7 @@ class TileRender {
   const PixelFilter& filter_;
   const SamplePlan& plan_;
   PixelRect rect_;
+  const Baking* baking_;
   TileAccumulator accumulator_;
   std::optional<NoiseMap> noise_;  // where sampling is adaptive
   std::size_t next_round_ = 0;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What passes and baking make of a surface's lobes: some kinds of them alone, one normal, one roughness.
+#include <gtest/gtest.h>
+
+#include "bsdf/fixtures.h"
+
+namespace basicrt::test {
+namespace {
+
+TEST(KeepKinds, leaves_what_the_value_of_those_kinds_is) {
+  const Vec3f wo = direction_at(25);
+  for (const auto& [name, material] : all_materials()) {
+    const Bsdf whole = make_bsdf(material, make_point(), wo);
+    for (const std::uint32_t kinds : {std::uint32_t{ray_diffuse}, std::uint32_t{ray_glossy},
+                                      std::uint32_t{ray_transmission}, ray_diffuse | ray_glossy, 0u}) {
+      Bsdf kept = whole;
+      kept.keep_kinds(kinds);
+      for (const float angle : {10.0f, 60.0f, 85.0f, 120.0f, 170.0f}) {
+        const Vec3f wi = direction_at(angle, 200);
+        const Color expected = whole.eval_kinds(wo, wi, kinds).value, value = kept.eval(wo, wi).value;
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], expected[i], 1e-6f * expected[i]) << name << ", " << kinds;
+      }
+    }
+  }
+}
+
+TEST(KeepKinds, leaves_out_what_passes_straight_through) {
+  Bsdf bsdf = make_bsdf(make_mix(0.5f, TransparentShader{}, DiffuseShader{}), make_point(), direction_at(0));
+  bsdf.keep_kinds(ray_diffuse | ray_glossy | ray_transmission);
+  EXPECT_EQ(bsdf.albedo(direction_at(0), ScatterKind::transparent), Color(0.0f));
+  EXPECT_FALSE(bsdf.is_empty());
+}
+
+TEST(MeanRoughness, is_that_of_the_nodes) {
+  const Vec3f wo = direction_at(20);
+  const auto roughness = [&](const Material& material) {
+    return make_bsdf(material, make_point(), wo).mean_roughness();
+  };
+  EXPECT_NEAR(roughness(make_material(GlossyShader{.color = Color(0.5f), .roughness = 0.3f})), 0.3f, 1e-6f);
+  EXPECT_NEAR(roughness(make_material(GlassShader{.roughness = 0.4f})), 0.4f, 1e-6f);
+  EXPECT_NEAR(roughness(make_material(PrincipledShader{.roughness = 0.6f})), 0.6f, 1e-6f);
+  EXPECT_EQ(roughness(make_material(DiffuseShader{})), 1);
+  const Material half = make_mix(0.5f, GlossyShader{.color = Color(0.5f), .roughness = 0.2f},
+                                 GlossyShader{.color = Color(0.5f), .roughness = 0.4f});
+  EXPECT_NEAR(roughness(half), 0.3f, 1e-6f);
+}
+
+}  // namespace
+}  // namespace basicrt::test
