@@ -13,10 +13,11 @@ import bpy
 
 from .. import compat
 from ..properties import settings_of
-from ..report import ExportError, Report, caught, show_warnings, summary
+from ..report import ExportError, HeldReport, Report, caught, show_warnings, summary
 from . import command_line
 from .denoise import LayerDenoiser, can_denoise
 from .result import NOISY_PASS, ResultWriter, complete_without_pixels
+from .status import show_status
 
 if TYPE_CHECKING:
     import basicrt
@@ -40,7 +41,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
 
     bl_idname = "BASICRT"
     bl_label = "BasicRT"
-    bl_use_preview = False
+    bl_use_preview = True
     bl_use_postprocess = True
     bl_use_eevee_viewport = True  # for Material Preview
     bl_use_shading_nodes_custom = False  # Blender's own nodes, in its own menus
@@ -75,6 +76,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         with caught(self._fail):
             if exported is None:
                 self._fail(self.failure or "BasicRT: the scene was not exported")
+            elif self.is_preview:
+                self._draw_preview(exported, depsgraph)
             elif BasicRTRenderEngine.export_path is not None:
                 exported.scene.save(str(BasicRTRenderEngine.export_path))
                 complete_without_pixels(self)
@@ -87,7 +90,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         Blender doesn't say so of a bake by a script, but then there is no picture to be made, unless
         one was made before.
         """
-        return self.resolution_x == 0 or bpy.app.is_job_running("OBJECT_BAKE")
+        is_job = bpy.app.is_job_running("OBJECT_BAKE") and not self.is_preview
+        return self.resolution_x == 0 or is_job
 
     def bake(  # type: ignore[override]
         self,
@@ -161,6 +165,15 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         if denoising.convert(scene, renderlayer) is not None:
             self.register_pass(scene, renderlayer, NOISY_PASS, 4, "RGBA", "COLOR")
 
+    def _draw_preview(self, exported: Export, depsgraph: Any) -> None:
+        """Render a small scene of Blender's: nobody waits for what it could be at best."""
+        from ..export.settings import pass_names
+        from . import preview
+
+        layer = depsgraph.view_layer
+        threads = int(depsgraph.scene.render.threads)
+        preview.render(self, exported, layer.name, pass_names(layer), threads)
+
     def _remember_failure(self, message: str) -> None:
         """update() can't end a render: render() is called after it and does."""
         self.failure = message
@@ -172,8 +185,9 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         complete result would crash Blender when it writes an EXR.
         """
         complete_without_pixels(self)
-        self.report({"ERROR"}, message)
-        self.error_set(message)
+        if not self.is_preview:
+            self.report({"ERROR"}, message)
+            self.error_set(message)
 
     def _export(self, depsgraph: Any) -> None:
         """From Blender's data to a scene, and the warnings to their panel."""
@@ -184,9 +198,20 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.update_stats("", "Exporting")
         b_camera = self.camera_override or depsgraph.scene.camera
         evaluated = b_camera.evaluated_get(depsgraph) if b_camera else None
+        if self.is_preview:
+            self._export_preview(depsgraph, evaluated)
+            return
         self.exported = scene_sync.export(depsgraph, evaluated, self.warnings, self.frame_set)
         self.overrides.apply(self.exported.scene.settings, depsgraph.scene)
         show_warnings(self.warnings)
+
+    def _export_preview(self, depsgraph: Any, b_camera: Any) -> None:
+        """What is not as in Blender is told where the scene itself is rendered."""
+        from ..sync import scene_sync
+        from . import preview
+
+        self.exported = scene_sync.export(depsgraph, b_camera, HeldReport())
+        preview.simplify(self.exported.scene.settings)
 
     def _trace(self, exported: Export, depsgraph: Any) -> None:
         """Pull tiles until there are no more or the user cancels."""
@@ -215,9 +240,9 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
                     break
                 if time.monotonic() >= next_status:
                     next_status = time.monotonic() + STATUS_SECONDS
-                    self._show_status(session.progress)
+                    show_status(self, session.progress)
             if not session.is_stopped:
-                self._show_status(session.progress)
+                show_status(self, session.progress)
                 if denoiser is not None:
                     self._denoise(denoiser, writer, depsgraph.scene)
         writer.finish()
@@ -289,20 +314,3 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.update_stats("", f"Building trees | {fraction:.0%}")
         if self._is_cancelled():
             raise CancelledError
-
-    def _show_status(self, progress: basicrt.Progress) -> None:
-        """Progress bar, status line and memory."""
-        self.update_progress(progress.fraction)
-        rate = progress.samples_per_second / 1e6
-        remaining = time.strftime("%H:%M:%S", time.gmtime(progress.remaining_seconds))
-        status = f"{rate:.2f} M samples/s | Remaining {remaining}"
-        if progress.is_time_up:
-            status = f"Time is up: {progress.samples_per_pixel:.0f} samples for each pixel"
-        elif progress.is_done:
-            status = (
-                f"{rate:.2f} M samples/s | {progress.samples_per_pixel:.0f} samples for each pixel"
-            )
-        self.update_stats("", status)
-        peak = compat.peak_memory_megabytes()
-        if peak is not None:
-            self.update_memory_stats(memory_used=peak, memory_peak=peak)
