@@ -171,8 +171,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         from . import preview
 
         layer = depsgraph.view_layer
-        threads = int(depsgraph.scene.render.threads)
-        preview.render(self, exported, layer.name, pass_names(layer), threads)
+        names, threads = pass_names(layer), int(depsgraph.scene.render.threads)
+        preview.render(self, exported, layer.name, names, threads, self._is_cancelled)
 
     def _remember_failure(self, message: str) -> None:
         """update() can't end a render: render() is called after it and does."""

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import bpy
@@ -34,10 +34,11 @@ def render(
     layer: str,
     names: Mapping[str, str],
     threads: int,
+    is_cancelled: Callable[[], bool],
 ) -> None:
     """Write the coarse picture and then the fine one, until the user wants another. Raises SceneError."""
     for samples in SAMPLES:
-        if not _render_samples(engine, exported, samples, layer, names, threads):
+        if not _render_samples(engine, exported, samples, layer, names, threads, is_cancelled):
             return
 
 
@@ -48,6 +49,7 @@ def _render_samples(
     layer: str,
     names: Mapping[str, str],
     threads: int,
+    is_cancelled: Callable[[], bool],
 ) -> bool:
     """One of the two; false where it was cancelled."""
     exported.scene.settings.samples = samples
@@ -61,9 +63,9 @@ def _render_samples(
         for tile in session.tiles(poll_seconds=POLL_SECONDS):
             if tile is not None:
                 writer.write(tile)
-            if engine.test_break():
+            if is_cancelled():
                 session.stop()
                 break
-        is_cancelled = session.is_stopped
+        is_whole = not session.is_stopped
         writer.finish()
-    return not is_cancelled
+    return is_whole

@@ -94,7 +94,7 @@ def test_previews_are_quick_and_tell_no_tales(caplog: Any) -> None:
 def test_a_preview_that_nobody_wants_any_more_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     new_scene()
     monkeypatch.setattr(preview, "SAMPLES", (1 << 20,))
-    monkeypatch.setattr(BasicRTRenderEngine, "test_break", lambda _: True, raising=False)
+    monkeypatch.setattr(BasicRTRenderEngine, "_is_cancelled", lambda _: True)
     begin = time.monotonic()
     preview_of(new_material("ShaderNodeBsdfDiffuse"))
     assert time.monotonic() - begin < 30  # all of it would take an hour
