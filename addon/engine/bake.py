@@ -34,10 +34,12 @@ class ObjectBake:
         depsgraph: bpy.types.Depsgraph,
         overrides: Overrides,
         report: Report,
+        is_cancelled: Callable[[], bool],
     ) -> None:
         """Everything stands still, and a camera is not needed. Raises ExportError."""
         self._engine = engine
         self._report = report
+        self._is_cancelled = is_cancelled
         b_scene: Any = depsgraph.scene
         b_evaluated: Any = depsgraph.scene_eval
         b_camera = b_scene.camera.evaluated_get(depsgraph) if b_scene.camera else None
@@ -94,7 +96,7 @@ class ObjectBake:
             for tile in session.tiles(poll_seconds=POLL_SECONDS):
                 if tile is not None:
                     buffer.add(tile)
-                if self._engine.test_break():
+                if self._is_cancelled():
                     return None
                 self._engine.update_progress(session.progress.fraction)
         return plan.picture(buffer.pictures)
@@ -116,5 +118,5 @@ class ObjectBake:
     def _watch_building(self, fraction: float) -> None:
         """Called while trees are built."""
         self._engine.update_stats("", f"Building trees | {fraction:.0%}")
-        if self._engine.test_break():
+        if self._is_cancelled():
             raise CancelledError

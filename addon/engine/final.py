@@ -110,7 +110,9 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
 
             if self.baking is None:
                 self.overrides = self.given_overrides or command_line.overrides()
-                self.baking = ObjectBake(self, depsgraph, self.overrides, self.warnings)
+                self.baking = ObjectBake(
+                    self, depsgraph, self.overrides, self.warnings, self._is_cancelled
+                )
             plan = convert_plan(depsgraph.scene, pass_type, pass_filter)
             self.baking.bake_image(b_object, plan, width, height)
 

@@ -2,6 +2,7 @@
 """Blender's Bake with BasicRT, against the Cycles of the same Blender and against what is known."""
 
 import math
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -9,6 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from addon import compat
+from addon.engine import BasicRTRenderEngine
 
 from support.blender import (
     add_camera,
@@ -375,6 +377,16 @@ def test_a_bake_after_a_render_and_with_motion_blur(tmp_path: Any) -> None:
     bpy.ops.render.render(write_still=True)
     picture = bake(image, "COMBINED")
     np.testing.assert_allclose(picture, np.broadcast_to(REFLECTED, picture.shape), rtol=1e-4)
+
+
+def test_a_bake_can_be_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, _flat, image = flat_scene()
+    scene.cycles.samples = 1 << 20
+    monkeypatch.setattr(BasicRTRenderEngine, "_is_cancelled", lambda _: True)
+    begin = time.monotonic()
+    bpy.ops.object.bake(type="COMBINED", margin=0)
+    assert time.monotonic() - begin < 30  # all of it would take many minutes
+    assert not pixels_of(image)[..., :3].any()
 
 
 def test_what_cannot_be_baked_is_told() -> None:
