@@ -14,7 +14,7 @@ from .. import compat
 from ..properties import settings_of
 from ..properties.choice import Choice
 from ..report import Report
-from . import denoising, light_groups
+from . import aovs, denoising, light_groups
 from .camera import resolution
 from .motion import shutter_curve
 
@@ -83,19 +83,24 @@ def border(b_render: bpy.types.RenderSettings) -> Border:
 
 def enabled_passes(b_view_layer: bpy.types.ViewLayer) -> list[basicrt.PassInfo]:
     """The rows of the table of passes that a view layer asks for."""
-    groups = light_groups.pass_names(b_view_layer)
+    named = _named_passes(b_view_layer)
     return [
         info
         for info in basicrt.passes()
-        if info.name in groups or _is_enabled(info.name, b_view_layer)
+        if info.name in named or _is_enabled(info.name, b_view_layer)
     ]
+
+
+def _named_passes(b_view_layer: bpy.types.ViewLayer) -> dict[str, str]:
+    """Users' names of the passes that have numbers."""
+    return light_groups.pass_names(b_view_layer) | aovs.pass_names(b_view_layer)
 
 
 def pass_names(b_view_layer: bpy.types.ViewLayer) -> dict[str, str]:
     """What Blender calls the passes that a view layer asks for, by the core's names."""
-    groups = light_groups.pass_names(b_view_layer)
+    named = _named_passes(b_view_layer)
     return {
-        info.name: groups.get(info.name, compat.pass_name(info.name))
+        info.name: named.get(info.name, compat.pass_name(info.name))
         for info in enabled_passes(b_view_layer)
     }
 

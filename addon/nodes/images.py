@@ -40,6 +40,7 @@ class Textures:
         self._indices: dict[Hashable, int] = {}
         # By a material's number: what it asks for of meshes.
         self.mesh_data: dict[int, frozenset[MeshData]] = {}
+        self.aovs: dict[str, int] = {}  # the numbers of AOVs by their names
         self.objects: set[int] = set()  # the numbers of those whose place counts for materials
 
     @property

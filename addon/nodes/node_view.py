@@ -174,6 +174,11 @@ class NodeView:
             self.warn(f"{identifier} reflects more light than it receives: limited to 1")
         return unit(color)
 
+    def any_color(self, identifier: str) -> Color | basicrt.TextureRef | basicrt.OperationRef:
+        """Three numbers that may vary, whatever they are."""
+        reference = self._varying_at(identifier)
+        return self.vector(identifier) if reference is None else reference
+
     def light(self, identifier: str) -> Color:
         """A colour that shines: at least 0."""
         return positive(as_color(self._value(identifier)))

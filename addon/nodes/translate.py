@@ -12,7 +12,7 @@ import basicrt
 
 from .. import compat
 from ..report import Report
-from . import coordinate_nodes, math_nodes, pattern_nodes, shaders, textures, volumes
+from . import aov_output, coordinate_nodes, math_nodes, pattern_nodes, shaders, textures, volumes
 from .coordinate_nodes import displacement_normal
 from .graph import Place, find_socket, trace
 from .images import Textures
@@ -71,6 +71,7 @@ def translate_surface(
         if _has_bumps(material) and not compat.corrects_bumps(b_material):
             translation.warn("Bump Map Correction can't be switched off")
         fill(translation, tree)
+        aov_output.translate(translation, tree)
         b_original: Any = b_material.original
         store.mesh_data[b_original.session_uid] = frozenset(translation.mesh_data)
     return material

@@ -13,7 +13,7 @@ import bpy
 import basicrt
 
 from .. import compat
-from ..export import camera, light_groups, motion, settings, world
+from ..export import aovs, camera, light_groups, motion, settings, world
 from ..export.identity import uid
 from ..nodes import Textures
 from ..report import ExportError, Report
@@ -144,6 +144,8 @@ class SceneSync:
             scene.world_volume = None
             changes.has_world = True
             self._textures = Textures(scene)
+            b_original_layer: Any = depsgraph.view_layer
+            self._textures.aovs = aovs.numbers(b_original_layer, self._report)
             self._instances = Instances(scene, names, self._report, self._textures, self._movement)
         elif changes.has_renamed or not is_old_layout:
             self._instances.forget()
@@ -205,7 +207,8 @@ def _basis(depsgraph: bpy.types.Depsgraph, view_camera: camera.Camera) -> Any:
     b_scene: Any = depsgraph.scene
     b_view_layer: Any = depsgraph.view_layer
     is_flat = isinstance(view_camera, (basicrt.PerspectiveCamera, basicrt.OrthographicCamera))
-    return uid(b_scene), b_view_layer.name, history(), is_flat
+    written = tuple(aovs.numbers(b_view_layer).items())
+    return uid(b_scene), b_view_layer.name, history(), is_flat, written
 
 
 def _layout(depsgraph: bpy.types.Depsgraph) -> Iterator[Any]:

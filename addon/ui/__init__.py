@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from . import bake_panels, core_panels, light_group_panels, panels
+from . import aov_panel, bake_panels, core_panels, light_group_panels, panels
 
 
 def register() -> None:
     """Show the panels."""
     panels.register()
     bake_panels.register()
+    aov_panel.register()
     light_group_panels.register()
     core_panels.register()
 
@@ -18,5 +19,6 @@ def unregister() -> None:
     """Hide them again."""
     core_panels.unregister()
     light_group_panels.unregister()
+    aov_panel.unregister()
     bake_panels.unregister()
     panels.unregister()

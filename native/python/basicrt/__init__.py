@@ -15,6 +15,7 @@ left out or changed warns with SceneWarning.
 from ._native import (
     AddShader,
     AmbientOcclusionOperation,
+    AovShader,
     AreaLight,
     AttributeOperation,
     BakeSettings,
@@ -121,6 +122,7 @@ __all__ = [
     "BAKE_KINDS",
     "AddShader",
     "AmbientOcclusionOperation",
+    "AovShader",
     "AreaLight",
     "AttributeOperation",
     "BakePlan",

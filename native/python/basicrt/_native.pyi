@@ -14,6 +14,7 @@ import typing
 __all__: list[str] = [
     "AddShader",
     "AmbientOcclusionOperation",
+    "AovShader",
     "AreaLight",
     "AttributeOperation",
     "BakeSettings",
@@ -3828,6 +3829,49 @@ class VolumeShader:
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
 
+class AovShader:
+    """
+    What the surface writes into the passes AOV Color and AOV Value.
+
+    number: of the passes AOV Color and AOV Value; in [1, 16]
+    color: in the pass AOV Color
+    value: in the pass AOV Value
+    """
+    def __init__(
+        self,
+        number: int = 1,
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        value: float | TextureRef | OperationRef = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        in the pass AOV Color
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def number(self) -> int:
+        """
+        of the passes AOV Color and AOV Value; in [1, 16]
+        """
+    @number.setter
+    def number(self, value: int) -> None: ...
+    @property
+    def value(self) -> float | TextureRef | OperationRef:
+        """
+        in the pass AOV Value
+        """
+    @value.setter
+    def value(self, value: float | TextureRef | OperationRef) -> None: ...
+
 class MixShader:
     """
     A blend of two nodes; None is black and opaque.
@@ -3915,7 +3959,8 @@ class Material:
         | MetallicShader
         | SheenShader
         | ToonShader
-        | SubsurfaceShader,
+        | SubsurfaceShader
+        | AovShader,
     ) -> int:
         """
         Appends a node and returns its index.
@@ -3979,6 +4024,7 @@ class Material:
         | SheenShader
         | ToonShader
         | SubsurfaceShader
+        | AovShader
     ]:
         """
         Copies of the nodes.

@@ -2,6 +2,7 @@
 // A material with what shade() makes of it, where that is always the same.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "bsdf/bsdf.h"
@@ -12,6 +13,7 @@ namespace basicrt {
 struct PreparedMaterial {
   Material material;                          // compiled
   Material transparent;                       // its transparent_part(), compiled
+  std::optional<Material> aovs;               // its aov_part(), compiled, where it has one
   std::optional<SurfaceShading> front, back;  // of each side that is uniform
   std::optional<Medium> medium;               // what its volume is
   bool is_boundary = false;                   // it has a volume and no surface: light passes straight through
@@ -19,6 +21,13 @@ struct PreparedMaterial {
 
   PreparedMaterial(Material the_material, const Table<Texture>& textures);
 };
+
+// The material with nothing but what it writes into passes; nothing where that is nothing.
+[[nodiscard]] std::optional<Material> aov_part(const Material& material);
+
+// Calls visit(AovShader) for each, with constants for all inputs.
+void for_each_aov(const PreparedMaterial& prepared, const Table<Texture>& textures, const SurfacePoint& point, Vec3f wo,
+                  const ShadingContext& context, const std::function<void(const AovShader&)>& visit);
 
 // `context` is called for a ShadingContext where the material asks for more than the point.
 template <class ContextFunction>

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "light/light_group.h"
+#include "shading/aov.h"
 
 namespace basicrt {
 
@@ -46,6 +47,9 @@ enum class Pass : std::uint8_t {
   crypto_asset = crypto_material + 8,
   // The first of those that users number: the light of each group of lights.
   light_group = crypto_asset + 8,
+  // The first of those that materials write.
+  aov_color = light_group + light_groups,
+  aov_value = aov_color + aovs,
 };
 
 // How a pixel's value comes from its samples'.
@@ -68,6 +72,10 @@ struct PassInfo {
 
 inline constexpr int matte_passes = 8;  // of each kind
 
+// Of the number that a material calls it by, from 1 on.
+constexpr Pass aov_color_pass(int number) { return static_cast<Pass>(static_cast<int>(Pass::aov_color) + number - 1); }
+constexpr Pass aov_value_pass(int number) { return static_cast<Pass>(static_cast<int>(Pass::aov_value) + number - 1); }
+
 // Of a group's number, from 1 on.
 constexpr Pass light_group_pass(int group) {
   return static_cast<Pass>(static_cast<int>(Pass::light_group) + group - 1);
@@ -83,6 +91,8 @@ constexpr PassInfo matte(Pass first, int index, std::string_view name) {
 }
 // Numbers, not names: whoever names the groups knows which is which.
 constexpr PassInfo light_group(int group, std::string_view name) { return {light_group_pass(group), name, "RGB"}; }
+constexpr PassInfo aov_color(int number, std::string_view name) { return {aov_color_pass(number), name, "RGBA"}; }
+constexpr PassInfo aov_value(int number, std::string_view name) { return {aov_value_pass(number), name, "X"}; }
 }  // namespace detail
 
 inline constexpr std::array passes = {
@@ -154,6 +164,38 @@ inline constexpr std::array passes = {
     detail::light_group(14, "Light Group 14"),
     detail::light_group(15, "Light Group 15"),
     detail::light_group(16, "Light Group 16"),
+    detail::aov_color(1, "AOV Color 01"),
+    detail::aov_color(2, "AOV Color 02"),
+    detail::aov_color(3, "AOV Color 03"),
+    detail::aov_color(4, "AOV Color 04"),
+    detail::aov_color(5, "AOV Color 05"),
+    detail::aov_color(6, "AOV Color 06"),
+    detail::aov_color(7, "AOV Color 07"),
+    detail::aov_color(8, "AOV Color 08"),
+    detail::aov_color(9, "AOV Color 09"),
+    detail::aov_color(10, "AOV Color 10"),
+    detail::aov_color(11, "AOV Color 11"),
+    detail::aov_color(12, "AOV Color 12"),
+    detail::aov_color(13, "AOV Color 13"),
+    detail::aov_color(14, "AOV Color 14"),
+    detail::aov_color(15, "AOV Color 15"),
+    detail::aov_color(16, "AOV Color 16"),
+    detail::aov_value(1, "AOV Value 01"),
+    detail::aov_value(2, "AOV Value 02"),
+    detail::aov_value(3, "AOV Value 03"),
+    detail::aov_value(4, "AOV Value 04"),
+    detail::aov_value(5, "AOV Value 05"),
+    detail::aov_value(6, "AOV Value 06"),
+    detail::aov_value(7, "AOV Value 07"),
+    detail::aov_value(8, "AOV Value 08"),
+    detail::aov_value(9, "AOV Value 09"),
+    detail::aov_value(10, "AOV Value 10"),
+    detail::aov_value(11, "AOV Value 11"),
+    detail::aov_value(12, "AOV Value 12"),
+    detail::aov_value(13, "AOV Value 13"),
+    detail::aov_value(14, "AOV Value 14"),
+    detail::aov_value(15, "AOV Value 15"),
+    detail::aov_value(16, "AOV Value 16"),
 };
 static_assert([] {
   for (std::size_t i = 0; i < passes.size(); ++i)

@@ -56,6 +56,10 @@ class PassValues {
     float* to = at(sample, pass);
     for (int i = 0; i < 3; ++i) to[i] += value[i];
   }
+  void add(std::uint32_t sample, Pass pass, Vec3f value, float alpha) {
+    add(sample, pass, value);
+    if (has(pass)) at(sample, pass)[3] += alpha;
+  }
   void add(const MatteSample& matte) { mattes_.push_back(matte); }
 
  private:

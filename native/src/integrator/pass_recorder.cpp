@@ -16,6 +16,12 @@ constexpr std::array light_passes = {Pass::diffuse_direct,  Pass::diffuse_indire
                                      Pass::volume_direct,   Pass::volume_indirect,     Pass::emission,
                                      Pass::environment};
 
+bool has_aov(const PassValues& values) {
+  for (int number = 1; number <= aovs; ++number)
+    if (values.has(aov_color_pass(number)) || values.has(aov_value_pass(number))) return true;
+  return false;
+}
+
 bool has_light_group(const PassValues& values) {
   for (int group = 1; group <= light_groups; ++group)
     if (values.has(light_group_pass(group))) return true;
@@ -69,7 +75,8 @@ PassRecorder::PassRecorder(const PreparedScene& scene)
       has_mattes_(scene.settings.passes.has(PassRule::matte)),
       is_active_(has_mattes_ || !recorded_passes(scene.settings.passes).is_empty()),
       records_light_(std::ranges::any_of(light_passes, [&](Pass pass) { return values_.has(pass); }) ||
-                     has_light_group(values_)) {}
+                     has_light_group(values_)),
+      records_aovs_(has_aov(values_)) {}
 
 void PassRecorder::begin(std::size_t samples) {
   if (!is_active_) return;

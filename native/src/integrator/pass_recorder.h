@@ -40,6 +40,11 @@ class PassRecorder {
     if (is_active_ && has_features_[sample] == 0) values_.add(sample, Pass::denoising_albedo, radiance);
   }
 
+  [[nodiscard]] bool records_aovs() const { return records_aovs_; }
+  void record_aov(std::uint32_t sample, const AovShader& aov) {
+    values_.add(sample, aov_color_pass(aov.number), aov.color.constant, 1);
+    values_.add(sample, aov_value_pass(aov.number), aov.value.constant);
+  }
   void record_roughness(std::uint32_t sample, float roughness) { values_.add(sample, Pass::roughness, roughness); }
   // How much of the sky is to be seen of a surface that the camera sees, and of the surface itself.
   void record_openness(std::uint32_t sample, Color share) { values_.add(sample, Pass::ambient_occlusion, share); }
@@ -73,7 +78,7 @@ class PassRecorder {
 
   const PreparedScene& scene_;
   PassValues values_;
-  bool has_mattes_, is_active_, records_light_;
+  bool has_mattes_, is_active_, records_light_, records_aovs_;
   std::vector<LightShares> shares_;         // of each sample's path, once it was scattered
   std::vector<std::uint8_t> has_features_;  // of each sample
   std::vector<Filing> filings_;             // of light samples

@@ -96,7 +96,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
     if (is_first_hit) note_first_hit(path.sample, point, sample);
 
     SurfaceShading shading = shade_at(scene_, point, -ray.direction, [&] { return context_of(path, ray, point); });
-    if (is_first_hit) note_first_surface(path.sample, point, shading.bsdf, sample);
+    if (is_first_hit) note_first_surface(path, ray, point, shading.bsdf, sample);
     if (is_baking_ && path.is_camera_ray) keep_baked_parts(path, ray, shading, sample);
     if (path.shows_film) cut_out(path, ray, point, shading, sample);
     if (softens_caustics_) soften_caustics(scene_.settings, ray.kinds == ray_diffuse, path.least_pdf, shading.bsdf);

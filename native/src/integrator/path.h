@@ -85,7 +85,8 @@ class PathIntegrator final : public Integrator {
   void record_surface(const Path& path, const Ray& ray, const SurfacePoint& point, const SurfaceShading& shading);
   // For baking and the pass Ambient Occlusion: path_surface.cpp.
   void keep_baked_parts(const Path& path, const Ray& ray, SurfaceShading& shading, PixelSample& sample) const;
-  void note_first_surface(std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
+  void note_first_surface(const Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf,
+                          PixelSample& sample);
   void sample_occlusion(const Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf);
   void cut_out(const Path& path, const Ray& ray, const SurfacePoint& point, SurfaceShading& shading,
                PixelSample& sample) const;

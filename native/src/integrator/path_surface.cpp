@@ -15,10 +15,13 @@ void PathIntegrator::keep_baked_parts(const Path& path, const Ray& ray, SurfaceS
   if (!baked_parts_.has_emission) shading.emission = Color(0.0f);
 }
 
-void PathIntegrator::note_first_surface(std::uint32_t index, const SurfacePoint& point, const Bsdf& bsdf,
+void PathIntegrator::note_first_surface(const Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf,
                                         PixelSample& sample) {
   if (bsdf.is_turned()) sample.normal = bsdf.mean_normal() * (point.is_backfacing ? -1.0f : 1.0f);
-  if (recorder_.values().has(Pass::roughness)) recorder_.record_roughness(index, bsdf.mean_roughness());
+  if (recorder_.values().has(Pass::roughness)) recorder_.record_roughness(path.sample, bsdf.mean_roughness());
+  if (recorder_.records_aovs())
+    for_each_aov(scene_.material_of(point), scene_.textures, point, -ray.direction, context_of(path, ray, point),
+                 [&](const AovShader& aov) { recorder_.record_aov(path.sample, aov); });
 }
 
 // The numbers drawn are those that the path itself draws next: its picture is the same without this pass.

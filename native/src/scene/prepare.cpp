@@ -152,8 +152,11 @@ PreparedScene::PreparedInstance prepare_instance(const Scene& scene, const Prepa
                                          .light_group = instance.light_group,
                                          .object_id = matte_id(instance.name),
                                          .asset_id = matte_id(asset_name(instance))};
-  for (const std::uint32_t material : result.materials)
-    result.needs_derivatives = result.needs_derivatives || needs_derivatives(prepared.materials[material].material);
+  for (const std::uint32_t index : result.materials) {
+    const PreparedMaterial& material = prepared.materials[index];
+    result.needs_derivatives = result.needs_derivatives || needs_derivatives(material.material) ||
+                               (material.aovs && needs_derivatives(*material.aovs));
+  }
   if (result.needs_derivatives) result.box = bounds(prepared.shapes[result.shape]);
   return result;
 }

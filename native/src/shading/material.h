@@ -13,6 +13,7 @@
 #include "base/describe.h"
 #include "base/id.h"
 #include "math/color.h"
+#include "shading/aov.h"
 #include "shading/inputs.h"
 #include "shading/operation.h"
 
@@ -415,10 +416,23 @@ struct AddShader {
   }
 };
 
+// Shows nothing, and need not be referred to: it writes the passes AOV Color and AOV Value of its number.
+struct AovShader {
+  int number = 1;
+  ColorInput color{Color(0.0f)};
+  NumberInput value = 0.0f;
+  static constexpr std::string_view kind = "aov";
+  static constexpr auto fields() {
+    return std::tuple{field("number", &AovShader::number, "of the passes AOV Color and AOV Value", within(1, aovs)),
+                      field("color", &AovShader::color, "in the pass AOV Color"),
+                      field("value", &AovShader::value, "in the pass AOV Value")};
+  }
+};
+
 using ShaderNode =
     std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader, TransparentShader,
                  EmissionShader, HoldoutShader, PrincipledShader, VolumeShader, MixShader, AddShader, TranslucentShader,
-                 MetallicShader, SheenShader, ToonShader, SubsurfaceShader>;
+                 MetallicShader, SheenShader, ToonShader, SubsurfaceShader, AovShader>;
 
 // A node refers only to nodes before it, so there is no cycle. A Mix or Add input of no_node is black and opaque,
 // as an empty socket is in Blender.
