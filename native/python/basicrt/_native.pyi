@@ -27,6 +27,7 @@ __all__: list[str] = [
     "ConstantTexture",
     "ConvertColorOperation",
     "CubemapFaceCamera",
+    "Curves",
     "CylindricalCamera",
     "DiffuseShader",
     "EmissionShader",
@@ -65,6 +66,7 @@ __all__: list[str] = [
     "OrthographicCamera",
     "PassInfo",
     "PerspectiveCamera",
+    "PointCloud",
     "PointLight",
     "PreethamSky",
     "PrincipledShader",
@@ -234,6 +236,111 @@ class Sphere:
         """
     @radius.setter
     def radius(self, value: float) -> None: ...
+
+class PointCloud:
+    """
+    Many exact spheres in object space, copied out of arrays and checked once. Read-only.
+
+    positions (N, 3) float32, metres; radii (N,) float32, or one number for all: points of radius 0 can't be hit; randoms (N,)
+    float32, what Point Info calls Random; attributes are (name, "vertex", values), values (N, 3) float32. They have the texture
+    coordinates of Sphere. Where they shine, rays run into them: they are not sampled as lights. Raises SceneError naming the
+    array, the rule and the value.
+    """
+    def __init__(
+        self,
+        positions: numpy.typing.ArrayLike,
+        radii: numpy.typing.ArrayLike,
+        *,
+        randoms: numpy.typing.ArrayLike | None = None,
+        attributes: collections.abc.Sequence[tuple[str, str, numpy.typing.ArrayLike]] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def attributes(self) -> list[tuple[str, str, numpy.typing.NDArray[numpy.float32]]]:
+        """
+        names, domains and values, (N, 3) float32
+        """
+    @property
+    def positions(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (N, 3) float32, object space, metres
+        """
+    @property
+    def radii(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (N,) float32, metres
+        """
+    @property
+    def randoms(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        (N,) float32, or None: all 0
+        """
+
+class Curves:
+    """
+    Hair in object space, copied out of arrays and checked once. Read-only.
+
+    points (N, 3) float32, metres, of one curve after the other; radii (N,) float32, or one number for all; firsts (C,) uint32,
+    the number of each curve's first point. Curves are Catmull-Rom splines through their points, and so are their radii. form:
+    "round", or "ribbon", which is flat and faces the ray. intercepts (N,) float32, how far along its curve a point is; randoms
+    (C,) float32 of each curve, what Curves Info calls Random; uvs (C, 2) float32, where each is rooted; attributes are (name,
+    domain, values): "vertex" has values for each point, "face" for each curve, (·, 3) float32. Curves are seen from outside
+    only, and have no volume. Where they shine, rays run into them: they are not sampled as lights. Raises SceneError naming
+    the array, the rule and the value.
+    """
+    def __init__(
+        self,
+        points: numpy.typing.ArrayLike,
+        radii: numpy.typing.ArrayLike,
+        firsts: numpy.typing.ArrayLike,
+        *,
+        form: str = "round",
+        intercepts: numpy.typing.ArrayLike | None = None,
+        randoms: numpy.typing.ArrayLike | None = None,
+        uvs: numpy.typing.ArrayLike | None = None,
+        attributes: collections.abc.Sequence[tuple[str, str, numpy.typing.ArrayLike]] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def attributes(self) -> list[tuple[str, str, numpy.typing.NDArray[numpy.float32]]]:
+        """
+        names, domains and values, (·, 3) float32
+        """
+    @property
+    def firsts(self) -> numpy.typing.NDArray[numpy.uint32]:
+        """
+        (C,) uint32, each curve's first point
+        """
+    @property
+    def form(self) -> str:
+        """
+        round or ribbon
+        """
+    @property
+    def intercepts(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        (N,) float32, or None: by the points' numbers
+        """
+    @property
+    def points(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (N, 3) float32, object space, metres
+        """
+    @property
+    def radii(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (N,) float32, metres
+        """
+    @property
+    def randoms(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        (C,) float32, or None: all 0
+        """
+    @property
+    def uvs(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        (C, 2) float32, or None: the intercept and 0
+        """
 
 class TextureRef:
     """
@@ -6478,13 +6585,17 @@ class ShapeTable:
     """
     Entries of a scene by index. Reading gives a copy; assign it back to change the scene.
     """
-    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> Mesh | Sphere: ...
-    def __iter__(self) -> collections.abc.Iterator[Mesh | Sphere]: ...
+    def __getitem__(
+        self, arg0: typing.SupportsInt | typing.SupportsIndex
+    ) -> Mesh | Sphere | PointCloud | Curves: ...
+    def __iter__(self) -> collections.abc.Iterator[Mesh | Sphere | PointCloud | Curves]: ...
     def __len__(self) -> int: ...
     def __setitem__(
-        self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: Mesh | Sphere
+        self,
+        arg0: typing.SupportsInt | typing.SupportsIndex,
+        arg1: Mesh | Sphere | PointCloud | Curves,
     ) -> None: ...
-    def append(self, value: Mesh | Sphere) -> int:
+    def append(self, value: Mesh | Sphere | PointCloud | Curves) -> int:
         """
         Adds an entry and returns its index.
         """
@@ -6662,7 +6773,7 @@ class Scene:
     @property
     def shapes(self) -> ShapeTable:
         """
-        Mesh and Sphere
+        Mesh, Sphere, PointCloud and Curves
         """
     @property
     def textures(self) -> TextureTable: ...
