@@ -42,6 +42,7 @@ __all__: list[str] = [
     "GlassShader",
     "GlossyShader",
     "GradientOperation",
+    "HairShader",
     "HoldoutShader",
     "HueSaturationOperation",
     "Image",
@@ -69,6 +70,7 @@ __all__: list[str] = [
     "PointCloud",
     "PointLight",
     "PreethamSky",
+    "PrincipledHairShader",
     "PrincipledShader",
     "Progress",
     "RefractionShader",
@@ -3239,6 +3241,230 @@ class SubsurfaceShader:
     @scale.setter
     def scale(self, value: float | TextureRef | OperationRef) -> None: ...
 
+class PrincipledHairShader:
+    """
+    Hair by its pigments, colour or absorption.
+
+    parametrization: which of the next few count: melanin, color or absorption
+    color: of much hair, seen from afar; in [0, 1]
+    melanin: how dark natural hair is; in [0, 1]
+    melanin_redness: how red; in [0, 1]
+    tint: that melanin is dyed with; in [0, 1]
+    absorption: per radius of the fibre; at least 0
+    roughness: along the fibre; in [0, 1]
+    radial_roughness: around it; in [0, 1]
+    coat: how much smoother the first reflection is; in [0, 1]
+    ior: refractive index of the fibre; at least 1
+    offset: how far the scales are tilted, radians; in [-1.5707964, 1.5707964]
+    random_color: how much melanin varies; in [0, 1]
+    random_roughness: how much both roughnesses vary; in [0, 1]
+    random: what they vary with: from 0 to 1; in [0, 1]
+    """
+    def __init__(
+        self,
+        parametrization: str = "color",
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.017513, 0.005763, 0.002059),
+        melanin: float | TextureRef | OperationRef = 0.8,
+        melanin_redness: float | TextureRef | OperationRef = 1.0,
+        tint: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+        absorption: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.245531, 0.52, 1.365),
+        roughness: float | TextureRef | OperationRef = 0.3,
+        radial_roughness: float | TextureRef | OperationRef = 0.3,
+        coat: float | TextureRef | OperationRef = 0.0,
+        ior: float | TextureRef | OperationRef = 1.55,
+        offset: float | TextureRef | OperationRef = 0.0349066,
+        random_color: float | TextureRef | OperationRef = 0.0,
+        random_roughness: float | TextureRef | OperationRef = 0.0,
+        random: float | TextureRef | OperationRef = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def absorption(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        per radius of the fibre; at least 0
+        """
+    @absorption.setter
+    def absorption(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def coat(self) -> float | TextureRef | OperationRef:
+        """
+        how much smoother the first reflection is; in [0, 1]
+        """
+    @coat.setter
+    def coat(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        of much hair, seen from afar; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def ior(self) -> float | TextureRef | OperationRef:
+        """
+        refractive index of the fibre; at least 1
+        """
+    @ior.setter
+    def ior(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def melanin(self) -> float | TextureRef | OperationRef:
+        """
+        how dark natural hair is; in [0, 1]
+        """
+    @melanin.setter
+    def melanin(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def melanin_redness(self) -> float | TextureRef | OperationRef:
+        """
+        how red; in [0, 1]
+        """
+    @melanin_redness.setter
+    def melanin_redness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def offset(self) -> float | TextureRef | OperationRef:
+        """
+        how far the scales are tilted, radians; in [-1.5707964, 1.5707964]
+        """
+    @offset.setter
+    def offset(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def parametrization(self) -> str:
+        """
+        which of the next few count: melanin, color or absorption
+        """
+    @parametrization.setter
+    def parametrization(self, value: str) -> None: ...
+    @property
+    def radial_roughness(self) -> float | TextureRef | OperationRef:
+        """
+        around it; in [0, 1]
+        """
+    @radial_roughness.setter
+    def radial_roughness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def random(self) -> float | TextureRef | OperationRef:
+        """
+        what they vary with: from 0 to 1; in [0, 1]
+        """
+    @random.setter
+    def random(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def random_color(self) -> float | TextureRef | OperationRef:
+        """
+        how much melanin varies; in [0, 1]
+        """
+    @random_color.setter
+    def random_color(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def random_roughness(self) -> float | TextureRef | OperationRef:
+        """
+        how much both roughnesses vary; in [0, 1]
+        """
+    @random_roughness.setter
+    def random_roughness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def roughness(self) -> float | TextureRef | OperationRef:
+        """
+        along the fibre; in [0, 1]
+        """
+    @roughness.setter
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def tint(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        that melanin is dyed with; in [0, 1]
+        """
+    @tint.setter
+    def tint(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class HairShader:
+    """
+    Hair by its highlight, or by the light that shines through.
+
+    component: reflection or transmission
+    color: reflectance; in [0, 1]
+    offset: how far the highlight moves along the fibre, radians; in [-1.5707964, 1.5707964]
+    roughness_u: along the fibre; in [0, 1]
+    roughness_v: around it; in [0, 1]
+    on_curve: 1: fibres run along u; 0: along v, without an offset; in [0, 1]
+    """
+    def __init__(
+        self,
+        component: str = "reflection",
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        offset: float | TextureRef | OperationRef = 0.0,
+        roughness_u: float | TextureRef | OperationRef = 0.1,
+        roughness_v: float | TextureRef | OperationRef = 1.0,
+        on_curve: float | TextureRef | OperationRef = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        reflectance; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def component(self) -> str:
+        """
+        reflection or transmission
+        """
+    @component.setter
+    def component(self, value: str) -> None: ...
+    @property
+    def offset(self) -> float | TextureRef | OperationRef:
+        """
+        how far the highlight moves along the fibre, radians; in [-1.5707964, 1.5707964]
+        """
+    @offset.setter
+    def offset(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def on_curve(self) -> float | TextureRef | OperationRef:
+        """
+        1: fibres run along u; 0: along v, without an offset; in [0, 1]
+        """
+    @on_curve.setter
+    def on_curve(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def roughness_u(self) -> float | TextureRef | OperationRef:
+        """
+        along the fibre; in [0, 1]
+        """
+    @roughness_u.setter
+    def roughness_u(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def roughness_v(self) -> float | TextureRef | OperationRef:
+        """
+        around it; in [0, 1]
+        """
+    @roughness_v.setter
+    def roughness_v(self, value: float | TextureRef | OperationRef) -> None: ...
+
 class RefractionShader:
     """
     Refraction without Fresnel reflection.
@@ -4020,7 +4246,9 @@ class Material:
         | MetallicShader
         | SheenShader
         | ToonShader
-        | SubsurfaceShader,
+        | SubsurfaceShader
+        | PrincipledHairShader
+        | HairShader,
     ) -> int:
         """
         Appends a node and returns its index.
@@ -4084,6 +4312,8 @@ class Material:
         | SheenShader
         | ToonShader
         | SubsurfaceShader
+        | PrincipledHairShader
+        | HairShader
     ]:
         """
         Copies of the nodes.

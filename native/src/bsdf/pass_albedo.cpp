@@ -22,6 +22,8 @@ Color albedo_of(const MicrofacetReflection<InterfaceFresnel>& lobe, float cos_th
   return Color(layer.albedo / layer.scale);
 }
 
+Color albedo_of(const ChiangHair& lobe, float /*cos_theta*/) { return lobe.albedo(); }
+
 template <class Fresnel>
 Color albedo_of(const MicrofacetReflection<Fresnel>& lobe, float cos_theta) {
   const Microfacets& facets = lobe.microfacets;
@@ -58,7 +60,7 @@ template <class AnyLobe>
 constexpr ScatterKind reflection_kind_of(const AnyLobe& /*lobe*/) {
   if constexpr (std::is_same_v<AnyLobe, Transparent>)
     return ScatterKind::transparent;
-  else if constexpr (std::is_same_v<AnyLobe, Translucent>)
+  else if constexpr (std::is_same_v<AnyLobe, Translucent> || std::is_same_v<AnyLobe, HairTransmission>)
     return ScatterKind::transmission;
   else if constexpr (requires { AnyLobe::reflection_kind; })
     return AnyLobe::reflection_kind;
