@@ -86,21 +86,27 @@ def _convert_one(b_mesh: bpy.types.Mesh, triangles: Triangles, data: MeshData) -
             np.repeat(pointiness.measure(b_mesh)[:, None], 3, axis=1),
         )
     b_attribute = _find(b_mesh, data)
-    if b_attribute is None or b_attribute.data_type not in _MEMBERS:
+    if b_attribute is None or b_attribute.domain not in _DOMAINS:
         return None
-    if b_attribute.domain not in _DOMAINS or len(b_attribute.data) == 0:
-        return None
-    member, width = _MEMBERS[b_attribute.data_type]
-    numbers: NDArray[Any] = np.empty(len(b_attribute.data) * width, _storage(b_attribute))
-    b_attribute.data.foreach_get(member, numbers)
-    values = _part(numbers.reshape(-1, width).astype(np.float32), data.part)
+    values = values_of(b_attribute, data.part)
     if values is None:
         return None
     if b_attribute.domain == "CORNER":
         values = values[triangles.corners]
     elif b_attribute.domain == "FACE":
         values = values[_faces(b_mesh)]
-    return data.exported_name, _DOMAINS[b_attribute.domain], _finite(values)
+    return data.exported_name, _DOMAINS[b_attribute.domain], values
+
+
+def values_of(b_attribute: Any, part: Part) -> Floats | None:
+    """(N, 3) of one of Blender's attributes, None where there are none or they are no numbers."""
+    if b_attribute.data_type not in _MEMBERS or len(b_attribute.data) == 0:
+        return None
+    member, width = _MEMBERS[b_attribute.data_type]
+    numbers: NDArray[Any] = np.empty(len(b_attribute.data) * width, _storage(b_attribute))
+    b_attribute.data.foreach_get(member, numbers)
+    values = _part(numbers.reshape(-1, width).astype(np.float32), part)
+    return None if values is None else _finite(values)
 
 
 def _find(b_mesh: Any, data: MeshData) -> Any:

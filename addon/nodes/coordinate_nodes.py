@@ -48,6 +48,19 @@ _CAMERA = {
     "View Z Depth": ("number", "view_depth"),
     "View Distance": ("number", "view_distance"),
 }
+_HAIR = {
+    "Is Strand": ("number", "is_strand"),
+    "Intercept": ("number", "strand_intercept"),
+    "Length": ("number", "strand_length"),
+    "Thickness": ("number", "strand_thickness"),
+    "Tangent Normal": ("vector", "strand_tangent_normal"),
+    "Random": ("number", "strand_random"),
+}
+_POINT = {
+    "Position": ("vector", "point_position"),
+    "Radius": ("number", "point_radius"),
+    "Random": ("number", "point_random"),
+}
 _LIGHT_PATH = {
     "Is Camera Ray": "is_camera_ray",
     "Is Shadow Ray": "is_shadow_ray",
@@ -73,7 +86,10 @@ _IN_WORLDS = {
     "object_normal": "normal",
     "reflection": "incoming",
 }
-_NOT_IN_WORLDS = {"camera_position", "window", "view_vector", "view_depth", "view_distance"}
+_NOT_IN_WORLDS = {
+    *("camera_position", "window", "view_vector", "view_depth", "view_distance"),
+    *(value for _, value in (*_HAIR.values(), *_POINT.values())),
+}
 
 
 def surface(of: Operands, kind: str, value: str) -> Value:
@@ -233,10 +249,15 @@ def ambient_occlusion(of: Operands, output: str) -> Value:
 
 
 @operation("ShaderNodeHairInfo")
-def hair_info(_of: Operands, output: str) -> Value:
-    """What it says of surfaces."""
-    zero = Value("number", 0.0)
-    return Value("vector", (0.0, 0.0, 0.0)) if output == "Tangent Normal" else zero
+def hair_info(of: Operands, output: str) -> Value | None:
+    """Of the strand of hair; 0 elsewhere."""
+    return _from_table(of, output, _HAIR)
+
+
+@operation("ShaderNodePointInfo")
+def point_info(of: Operands, output: str) -> Value | None:
+    """Of the point of a point cloud; 0 elsewhere."""
+    return _from_table(of, output, _POINT)
 
 
 @operation("ShaderNodeParticleInfo")

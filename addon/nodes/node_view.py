@@ -203,6 +203,10 @@ class NodeView:
             return self.light(color), factor
         return scaled(self.light(color), factor), 1.0
 
+    def is_linked(self, identifier: str) -> bool:
+        """Whether anything feeds an input."""
+        return self._output_at(identifier) is not None
+
     def shader(self, identifier: str) -> NodeIndex:
         """The shader at an input, None where nothing is linked."""
         socket = find_socket(self.node.inputs, identifier)

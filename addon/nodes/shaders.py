@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import basicrt
@@ -329,18 +330,70 @@ def _coat_layer(view: NodeView) -> dict[str, Any]:
     }
 
 
-# ---- drawn with something similar ----------------------------------------------------------------
+# ---- hair ----------------------------------------------------------------------------------------
+
+_PARAMETRIZATIONS = {"ABSORPTION": "absorption", "MELANIN": "melanin", "COLOR": "color"}
 
 
-@shader(
-    "ShaderNodeBsdfHair",
-    "ShaderNodeBsdfHairPrincipled",
-)
-def diffuse_instead(view: NodeView) -> NodeIndex:
-    """Shaders that spread light widely."""
-    view.warn("not supported: drawn as a Diffuse BSDF")
-    made = basicrt.DiffuseShader(color=view.color("Color"), twosided=True, normal=view.normal())
+def _of_point(view: NodeView, value: str) -> basicrt.OperationRef:
+    """Something of the point that is shaded."""
+    return view.translation.material.add_operation(basicrt.SurfaceOperation(value=value))
+
+
+@shader("ShaderNodeBsdfHairPrincipled")
+def principled_hair(view: NodeView) -> NodeIndex:
+    """Hair by Chiang's model; Huang's is drawn as that."""
+    node: Any = view.node
+    if node.model == "HUANG":
+        view.warn("the model Huang is drawn as Chiang")
+    if view.is_linked("Random"):
+        random: Any = view.share("Random")
+    else:
+        random = _of_point(view, "strand_random")
+    kind = _PARAMETRIZATIONS[node.parametrization]
+    used: dict[str, Any] = {}
+    if kind == "absorption":
+        used["absorption"] = view.varying_light("Absorption Coefficient")
+    elif kind == "color":
+        used["color"] = view.color("Color")
+    else:
+        used["melanin"] = view.share("Melanin")
+        used["melanin_redness"] = view.share("Melanin Redness")
+        used["tint"] = view.color("Tint")
+        used["random_color"] = view.share("Random Color")
+    roughness = view.share("Roughness")
+    is_chiang = node.model != "HUANG"
+    made = basicrt.PrincipledHairShader(
+        parametrization=kind,
+        roughness=roughness,
+        radial_roughness=view.share("Radial Roughness") if is_chiang else roughness,
+        coat=view.share("Coat") if is_chiang else 0.0,
+        ior=view.varying_number("IOR", 1.0),
+        offset=view.varying_number("Offset", -math.pi / 2, math.pi / 2),
+        random_roughness=view.share("Random Roughness"),
+        random=random,
+        **used,
+    )
     return view.add(made)
+
+
+@shader("ShaderNodeBsdfHair")
+def hair(view: NodeView) -> NodeIndex:
+    """A highlight along the fibre, or light that shines through it."""
+    node: Any = view.node
+    view.ignore(Tangent=None)
+    made = basicrt.HairShader(
+        component=str(node.component).lower(),
+        color=view.color("Color"),
+        offset=view.varying_number("Offset", -math.pi / 2, math.pi / 2),
+        roughness_u=view.share("RoughnessU"),
+        roughness_v=view.share("RoughnessV"),
+        on_curve=_of_point(view, "is_strand"),
+    )
+    return view.add(made)
+
+
+# ---- drawn with something similar ----------------------------------------------------------------
 
 
 @shader("ShaderNodeBsdfRayPortal")

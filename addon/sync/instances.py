@@ -13,21 +13,27 @@ from mathutils import Matrix
 import basicrt
 
 from .. import compat
-from ..export import attributes, light, light_groups, material, mesh, visibility
+from ..export import (
+    attributes,
+    hair,
+    light,
+    light_groups,
+    material,
+    mesh,
+    points,
+    visibility,
+)
 from ..export.identity import random_number, uid
 from ..nodes import MeshData, Textures
 from ..report import ExportError, Report
 from .changes import Changes
-from .motion import Key, MotionExport, key_of
-from .shapes import Shapes
+from .motion import Key, MotionExport, hair_key, key_of
+from .shapes import Geometry, Shapes
 
 # Kinds of objects that Blender would draw and BasicRT doesn't. (Curves, text and the like come as
 # meshes too.)
-_UNSUPPORTED = {
-    "CURVES": "hair curves",
-    "POINTCLOUD": "point clouds",
-    "VOLUME": "volumes",
-}
+_UNSUPPORTED = {"VOLUME": "volumes"}
+_SUPPORTED = ("MESH", "CURVES", "POINTCLOUD")
 
 
 @dataclass
@@ -54,8 +60,13 @@ class Filter:
 
     def shows(self, b_instance: Any) -> bool:
         """Whether a placed object is among it."""
-        if not b_instance.show_self:
-            return False
+        return bool(b_instance.show_self) and self._shows_object(b_instance)
+
+    def shows_hair(self, b_instance: Any) -> bool:
+        """Whether hair that grows on a placed object is."""
+        return bool(b_instance.show_particles) and self._shows_object(b_instance)
+
+    def _shows_object(self, b_instance: Any) -> bool:
         if self.b_space is None:
             return True
         b_root = (b_instance.parent if b_instance.is_instance else None) or b_instance.object
@@ -92,6 +103,7 @@ class Instances:
         self._known: dict[Key, _Known | None] = {}  # None: it is none of ours, or has no faces
         self._lights: dict[Key, int] = {}  # in Scene.lights
         self._object_names: dict[int, str] = {}
+        self._hairy: set[int] = set()  # the numbers of objects that hair grows on
         self._instanced: set[int] = (
             set()
         )  # the numbers of objects that are placed by others, and of those
@@ -107,6 +119,7 @@ class Instances:
         b_original_layer: Any = depsgraph.view_layer
         self._b_original_layer: Any = b_original_layer
         self._b_scene: Any = depsgraph.scene_eval
+        self._is_render = depsgraph.mode == "RENDER"
         self._groups = light_groups.numbers(b_original_layer, self._report)
         self._slots.clear()
         self._asked.clear()
@@ -146,6 +159,8 @@ class Instances:
             if b_object is None or b_object.session_uid != number:
                 return False
             evaluated = b_object.evaluated_get(depsgraph)
+            if number in self._hairy or len(evaluated.particle_systems) > 0:
+                return False
             is_alone = (number, 0, ()) in self._known and number not in self._instanced
             if evaluated.is_instancer or not is_alone:
                 return False
@@ -173,43 +188,41 @@ class Instances:
         before, self._known = self._known, {}
         self._object_names.clear()
         self._instanced.clear()
+        self._hairy.clear()
         self._scene.lights.clear()
         self._lights.clear()
         kept: list[basicrt.Instance | None] = []  # None: as it was, at the same place
         moved = len(before) == 0
         for b_instance in depsgraph.object_instances:
-            if not shown.shows(b_instance):
-                continue
             b_object: Any = b_instance.object
-            key = key_of(b_instance)
-            self._object_names[key[0]] = b_object.original.name
-            if b_instance.is_instance:
-                self._instanced.update(key[:2])
-            if b_object.type == "LIGHT":
+            for system in self._parts(b_instance, shown):
+                key = key_of(b_instance) if system is None else hair_key(b_instance, system.index)
+                self._object_names[key[0]] = b_object.original.name
+                if b_instance.is_instance:
+                    self._instanced.update(key[:2])
+                if b_object.type == "LIGHT":
+                    self._known[key] = None
+                    self._add_light(key, b_instance, shown)
+                    continue
+                known = before.get(key)
+                if known is not None and self._is_kept(known, b_instance, changes):
+                    self._known[key] = _Known(len(kept), known.shape, known.owners)
+                    self._shapes.use(known.shape)
+                    moved |= known.index != len(kept)
+                    kept.append(None)
+                    continue
                 self._known[key] = None
-                self._add_light(key, b_instance, shown)
-                continue
-            known = before.get(key)
-            if known is not None and self._is_kept(known, b_instance, changes):
-                self._known[key] = _Known(len(kept), known.shape, known.owners)
-                self._shapes.use(known.shape)
-                moved |= known.index != len(kept)
-                kept.append(None)
-                continue
-            self._known[key] = None
-            if b_object.type in _UNSUPPORTED:
-                self._warn(b_object, f"{_UNSUPPORTED[b_object.type]} are not supported: left out")
-            made = self._convert(b_instance, b_object) if b_object.type == "MESH" else None
-            if made is None:
-                continue
-            instance, shape = made
-            self._shapes.use(shape)
-            b_parent = b_instance.parent if b_instance.is_instance else None
-            owners = (key[0], uid(b_parent) if b_parent else 0)
-            self._known[key] = _Known(len(kept), shape, owners)
-            if self._movement is not None:
-                self._movement.note(b_instance, self._b_scene, len(kept), shape)
-            kept.append(instance)
+                made = self._convert(b_instance, b_object, system)
+                if made is None:
+                    continue
+                instance, shape = made
+                self._shapes.use(shape)
+                b_parent = b_instance.parent if b_instance.is_instance else None
+                owners = (key[0], uid(b_parent) if b_parent else 0)
+                self._known[key] = _Known(len(kept), shape, owners)
+                if self._movement is not None:
+                    self._movement.note(b_instance, self._b_scene, key, len(kept), shape)
+                kept.append(instance)
         self._is_forgotten = False
         self._replace_instances(before, kept, moved)
         for known in before.values():
@@ -221,6 +234,16 @@ class Instances:
         """Where in Scene.instances an object is that is placed by itself, by its number."""
         known = self._known.get((number, 0, ()))
         return known.index if known is not None else None
+
+    def _parts(self, b_instance: Any, shown: Filter) -> list[hair.System | None]:
+        """What is shown of a placed object: itself (None), and hair that grows on it."""
+        parts: list[hair.System | None] = [None] if shown.shows(b_instance) else []
+        if shown.shows_hair(b_instance):
+            systems = hair.systems(b_instance.object, self._is_render)
+            if systems:
+                self._hairy.add(uid(b_instance.object))
+            parts += systems
+        return parts
 
     def _replace_instances(
         self, before: dict[Key, _Known | None], kept: list[basicrt.Instance | None], moved: bool
@@ -273,11 +296,19 @@ class Instances:
     def _warn(self, b_object: bpy.types.Object, message: str) -> None:
         self._report.warn(f'object "{b_object.name}"', message)
 
-    def _convert(self, b_instance: Any, b_object: Any) -> tuple[basicrt.Instance, int] | None:
-        """One placed mesh, and the index of its shape; None where it has no faces or no volume."""
+    def _convert(
+        self, b_instance: Any, b_object: Any, system: hair.System | None = None
+    ) -> tuple[basicrt.Instance, int] | None:
+        """One placed object, or hair on it, and the index of its shape; None where there is nothing to see."""
+        if b_object.type in _UNSUPPORTED:
+            self._warn(b_object, f"{_UNSUPPORTED[b_object.type]} are not supported: left out")
         b_mesh: Any = b_object.data
+        if b_mesh is None or not (b_object.type in _SUPPORTED or system):
+            return None
         materials = self._materials_of(b_object, b_mesh)
-        shape = self._shape_of(b_instance, b_object, b_mesh)
+        if system is not None:
+            materials = materials[min(system.slot, len(materials) - 1) :][:1]
+        shape = self._shape_of(b_instance, b_object, b_mesh, system)
         if shape is None:
             return None
         transform = np.array(b_instance.matrix_world, np.float64)
@@ -305,29 +336,54 @@ class Instances:
         )
         return instance, shape
 
-    def _shape_of(self, b_instance: Any, b_object: Any, b_mesh: bpy.types.Mesh) -> int | None:
-        """The index of a mesh's shape, None where it has no faces."""
-        asked = self._asked[uid(b_object), mesh.key(b_mesh)]
-        key = (mesh.key(b_mesh), asked)
+    def _shape_of(
+        self, b_instance: Any, b_object: Any, b_data: Any, system: hair.System | None
+    ) -> int | None:
+        """The index of a geometry's shape, None where there is nothing of it."""
+        asked = self._asked[uid(b_object), mesh.key(b_data)]
+        form = hair.form(self._b_scene) if system or b_object.type == "CURVES" else ""
+        number = mesh.key(b_data) if system is None else system.pointer
+        key = (hash((number, form)) if form else number, asked)
         if key not in self._shapes:
             name = f'object "{b_object.name}"'
-            self._shapes.add(key, self._new_shape(name, b_object, b_mesh, asked), name)
+            shape = self._new_shape(name, b_object, asked, system)
+            self._shapes.add(key, shape, name)
         b_parent = b_instance.parent if b_instance.is_instance else None
         objects = [uid(b_object), *([uid(b_parent)] if b_parent is not None else [])]
-        b_data = b_object.original.data
-        return self._shapes.index(key, objects, [uid(b_data)] if b_data is not None else [])
+        b_original = b_object.original.data
+        return self._shapes.index(key, objects, [uid(b_original)] if b_original is not None else [])
 
     def _new_shape(
-        self, name: str, b_object: Any, b_mesh: bpy.types.Mesh, asked: frozenset[MeshData]
-    ) -> basicrt.Mesh | None:
-        """A mesh's new shape, called by the name of its first object."""
+        self, name: str, b_object: Any, asked: frozenset[MeshData], system: hair.System | None
+    ) -> Geometry | None:
+        """A new shape, called by the name of its first object."""
+        b_data = b_object.data
         try:
-            shape = mesh.convert_object(b_object, b_mesh, asked)
+            if system is not None or b_object.type == "CURVES":
+                return self._new_curves(b_object, asked, system)
+            if b_object.type == "POINTCLOUD":
+                return points.convert(b_data, asked)
+            shape = mesh.convert_object(b_object, b_data, asked)
         except basicrt.SceneError as error:
             raise ExportError(f"{name}: {error}") from error
-        if shape is not None and attributes.lacks_tangents(b_mesh, asked):
+        if shape is not None and attributes.lacks_tangents(b_data, asked):
             self._warn(b_object, "has no UV map for the tangents that its material asks for")
         return shape
+
+    def _new_curves(
+        self, b_object: Any, asked: frozenset[MeshData], system: hair.System | None
+    ) -> basicrt.Curves | None:
+        """Hair, and what of it isn't drawn as Blender has it."""
+        form = hair.form(self._b_scene)
+        if hair.is_linear(self._b_scene):
+            self._warn(b_object, "Linear 3D Curves are drawn as smooth ones")
+        if system is not None:
+            if hair.asks_for_more(asked):
+                self._warn(b_object, "its hair has no attributes but its roots' UV map")
+            return hair.convert_system(b_object, system.index, form, self._is_render)
+        if not hair.is_all_catmull_rom(b_object.data):
+            self._warn(b_object, "its curves are drawn as Catmull-Rom curves through their points")
+        return hair.convert(b_object.data, form, asked)
 
     def _materials_of(self, b_object: bpy.types.Object, b_mesh: bpy.types.Mesh) -> list[int | None]:
         """The material of each slot; Blender's default where a slot has none."""

@@ -39,6 +39,12 @@ def key_of(b_instance: bpy.types.DepsgraphObjectInstance) -> Key:
     return uid(b_object), uid(b_parent), tuple(b_instance.persistent_id)
 
 
+def hair_key(b_instance: bpy.types.DepsgraphObjectInstance, system: int) -> Key:
+    """Of the hair of an object's particle system. Blender's own numbers are not negative."""
+    number, parent, place = key_of(b_instance)
+    return number, parent, (*place, -1 - system)
+
+
 @dataclass
 class _Instance:
     """An instance of the scene that may move."""
@@ -73,18 +79,30 @@ class MotionExport:
         self._instances: dict[Key, _Instance] = {}
         self._shapes: dict[Key, _Shape] = {}  # by one object that shows it
         self._known_shapes: set[int] = set()
+        self._hair: dict[Key, list[Key]] = {}  # what grows on an object, and moves with it
 
     def note(
-        self, b_instance: bpy.types.DepsgraphObjectInstance, b_scene: Any, instance: int, shape: int
+        self,
+        b_instance: bpy.types.DepsgraphObjectInstance,
+        b_scene: Any,
+        key: Key,
+        instance: int,
+        shape: int,
     ) -> None:
-        """Remember a mesh object that was exported as that instance of that shape."""
+        """Remember an object, or hair on it, that was exported as that instance of that shape."""
         b_object: Any = b_instance.object
         b_parent = b_instance.parent if b_instance.is_instance else None
         intervals = motion.intervals(b_object, b_parent)
         if intervals == 0:
             return
-        key, name = key_of(b_instance), f'object "{b_object.name}"'
+        own_key, name = key_of(b_instance), f'object "{b_object.name}"'
         self._instances[key] = _Instance(instance, name, intervals)
+        if key != own_key:
+            self._hair.setdefault(own_key, []).append(key)
+        if key != own_key or b_object.type != "MESH":
+            if motion.is_deforming(b_object, b_parent, b_scene):
+                self._report.warn(name, "hair and points don't deform while the shutter is open")
+            return
         is_new = shape not in self._known_shapes and not b_object.data.is_editmode
         if is_new and motion.is_deforming(b_object, b_parent, b_scene):
             self._known_shapes.add(shape)
@@ -121,12 +139,13 @@ class MotionExport:
         """Note where everything is at the key of that number among 0 to `most`."""
         for b_instance in depsgraph.object_instances:
             b_object: Any = b_instance.object
-            if b_object.type != "MESH" or not b_instance.show_self:
-                continue
             key = key_of(b_instance)
-            instance, shape = self._instances.get(key), self._shapes.get(key)
-            if instance is not None and number % (most // instance.intervals) == 0:
-                instance.matrices[number] = np.array(b_instance.matrix_world, np.float64)
+            keys = [*self._hair.get(key, ()), *([key] if b_instance.show_self else ())]
+            for one in keys:
+                instance = self._instances.get(one)
+                if instance is not None and number % (most // instance.intervals) == 0:
+                    instance.matrices[number] = np.array(b_instance.matrix_world, np.float64)
+            shape = self._shapes.get(key) if b_instance.show_self else None
             if shape is not None and number % (most // shape.intervals) == 0:
                 shape.moments[number] = mesh.moment(b_object.data, shape.topology)
 

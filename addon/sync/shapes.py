@@ -11,7 +11,8 @@ import basicrt
 
 from ..nodes import MeshData
 
-# A mesh's key and what its materials ask for.
+Geometry = basicrt.Mesh | basicrt.PointCloud | basicrt.Curves
+# A geometry's key and what its materials ask for.
 ShapeKey = tuple[int, frozenset[MeshData]]
 
 
@@ -42,7 +43,7 @@ class Shapes:
         shape.data.update(data)
         return shape.index
 
-    def add(self, key: ShapeKey, shape: basicrt.Mesh | None, name: str) -> None:
+    def add(self, key: ShapeKey, shape: Geometry | None, name: str) -> None:
         """A new one; in the place of one that is gone, where there is one."""
         index = None
         if shape is not None and self._free:

@@ -30,6 +30,8 @@ void register_materials(py::module_& m) {
   bind_described<ToonShader>(m, "ToonShader", "A spot of even brightness.");
   bind_described<SubsurfaceShader>(m, "SubsurfaceShader",
                                    "Light that goes about beneath the surface and leaves elsewhere.");
+  bind_described<PrincipledHairShader>(m, "PrincipledHairShader", "Hair by its pigments, colour or absorption.");
+  bind_described<HairShader>(m, "HairShader", "Hair by its highlight, or by the light that shines through.");
   bind_described<RefractionShader>(m, "RefractionShader", "Refraction without Fresnel reflection.");
   bind_described<GlassShader>(m, "GlassShader", "Fresnel reflection and refraction.");
   bind_described<TransparentShader>(m, "TransparentShader", "Light passes straight through, tinted.");

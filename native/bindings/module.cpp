@@ -11,6 +11,7 @@ PYBIND11_MODULE(_native, m) {
 
   register_errors(m);
   register_shapes(m);
+  register_round_shapes(m);
   register_textures(m);
   register_operations(m);
   register_materials(m);

@@ -8,6 +8,7 @@ namespace basicrt::bindings {
 
 void register_errors(pybind11::module_& m);
 void register_shapes(pybind11::module_& m);
+void register_round_shapes(pybind11::module_& m);
 void register_textures(pybind11::module_& m);
 void register_operations(pybind11::module_& m);
 void register_materials(pybind11::module_& m);

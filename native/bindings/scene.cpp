@@ -140,7 +140,7 @@ void register_scene(py::module_& m) {
   py::class_<BoundScene>(m, "Scene",
                          "The description of a scene. No other thread may change it while a Session prepares it.")
       .def(py::init<>())
-      .def_property_readonly("shapes", table_getter(&Scene::shapes), "Mesh and Sphere")
+      .def_property_readonly("shapes", table_getter(&Scene::shapes), "Mesh, Sphere, PointCloud and Curves")
       .def_property_readonly("textures", table_getter(&Scene::textures))
       .def_property_readonly("materials", table_getter(&Scene::materials))
       .def_property_readonly("instances", table_getter(&Scene::instances))

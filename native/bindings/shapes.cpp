@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mesh and Sphere.
-#include <cstring>
 #include <memory>
 
-#include "arrays.h"
+#include "array_vectors.h"
 #include "described.h"
 #include "geometry/shape.h"
 #include "register.h"
@@ -12,16 +11,6 @@ namespace basicrt::bindings {
 namespace py = pybind11;
 
 namespace {
-
-// What the arrays hold, as the mesh's own elements. Each element is so many numbers in a row.
-template <class Element, class T>
-std::vector<Element> to_vector(const py::array_t<T>& array) {
-  static_assert(sizeof(Element) % sizeof(T) == 0);
-  std::vector<Element> elements(static_cast<std::size_t>(array.size()) * sizeof(T) / sizeof(Element));
-  if (!elements.empty())
-    std::memcpy(static_cast<void*>(elements.data()), array.data(), elements.size() * sizeof(Element));
-  return elements;
-}
 
 // The first axis are the keys.
 std::vector<std::vector<Vec3f>> to_keys(const py::array_t<float>& array) {
@@ -34,9 +23,6 @@ std::vector<std::vector<Vec3f>> to_keys(const py::array_t<float>& array) {
                      all.begin() + static_cast<std::ptrdiff_t>((key + 1) * size));
   return keys;
 }
-
-// Its name, its domain and its values.
-using NamedArray = std::tuple<std::string, std::string, ArrayLike>;
 
 Mesh make_mesh(const ArrayLike& positions, const ArrayLike& triangles, const std::optional<ArrayLike>& corner_normals,
                const std::optional<ArrayLike>& uvs, const std::optional<ArrayLike>& material_slots,
@@ -60,9 +46,7 @@ Mesh make_mesh(const ArrayLike& positions, const ArrayLike& triangles, const std
   if (motion_corner_normals)
     mesh.motion_corner_normals = to_keys(float_array(*motion_corner_normals, "motion_corner_normals",
                                                      {{any_length, count, 3, 3}, {any_length, 3 * count, 3}}));
-  for (const auto& [name, domain, values] : attributes)
-    mesh.attributes.push_back({name, PythonValue<AttributeDomain>::read(py::str(domain), "Mesh.attributes"),
-                               to_vector<Vec3f>(float_array(values, "attributes", {{any_length, 3}}))});
+  mesh.attributes = to_attributes(attributes, "Mesh.attributes");
   if (texture_space) {
     const auto& [least, size] = *texture_space;
     mesh.texture_space_min = {least[0], least[1], least[2]};
@@ -160,15 +144,7 @@ Raises SceneError naming the array, the rule and the value.)")
           "where generated coordinates are 0, and how far from there they are 1")
       .def_property_readonly(
           "attributes",
-          [](const py::object& self) {
-            std::vector<std::tuple<std::string, std::string, py::array_t<float>>> attributes;
-            for (const MeshAttribute& attribute : self.cast<const Mesh&>().attributes)
-              attributes.emplace_back(attribute.name,
-                                      enum_names<AttributeDomain>[static_cast<std::size_t>(attribute.domain)],
-                                      read_only_view(reinterpret_cast<const float*>(attribute.values.data()),
-                                                     {static_cast<py::ssize_t>(attribute.values.size()), 3}, self));
-            return attributes;
-          },
+          [](const py::object& self) { return attribute_views(self.cast<const Mesh&>().attributes, self); },
           "names, domains and values, (N, 3) float32")
       .def("__repr__", [](const Mesh& mesh) {
         return "<Mesh of " + std::to_string(mesh.positions.size()) + " positions, " +

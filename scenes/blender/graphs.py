@@ -9,9 +9,11 @@ from typing import Any
 
 import bpy
 import stage
+import strands
 from families import SCENES, ceiling_lamp, corner, family
 
 assert SCENES
+assert strands
 
 
 class Graph:

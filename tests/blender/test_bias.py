@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether both engines mean the same picture, over the scenes of scenes/blender/families.py and graphs.py.
+"""Whether both engines mean the same picture, over the scenes of scenes/blender/families.py, graphs.py and strands.py.
 
 Each engine renders each scene with several seeds. A block of 16 x 16 pixels gives a Welch z score of the engines' means
 over the seeds: over all blocks these must scatter like a normal distribution. `BASICRT_BIAS_SCALE=4` makes the pictures

@@ -178,10 +178,10 @@ def test_cancelling_while_trees_are_built(picture: Path, monkeypatch: pytest.Mon
 def test_what_is_not_supported_is_shown_after_the_render(tmp_path: Path) -> None:
     new_scene(8, 8)
     add_camera()
-    add_plane(material=new_material("ShaderNodeBsdfHair", "Wax"))
+    add_plane(material=new_material("ShaderNodeBsdfRayPortal", "Wax"))
     render(tmp_path)
     assert shown_warnings() == (
-        'material "Wax": node "Hair BSDF": not supported: drawn as a Diffuse BSDF',
+        'material "Wax": node "Ray Portal BSDF": not supported: drawn as a Transparent BSDF',
     )
     bpy.data.materials.remove(bpy.data.materials["Wax"])
     render(tmp_path)

@@ -566,7 +566,6 @@ def test_displacement_by_vectors_is_reported() -> None:
 @pytest.mark.parametrize(
     ("bl_idname", "ours"),
     [
-        ("ShaderNodeBsdfHair", basicrt.DiffuseShader),
         ("ShaderNodeBsdfRayPortal", basicrt.TransparentShader),
     ],
 )
@@ -580,6 +579,21 @@ def test_similar_shaders_stand_in(bl_idname: str, ours: type) -> None:
     assert "not supported: drawn as a" in report.warnings[0]
 
 
+def test_hair_is_translated() -> None:
+    material = new_material("ShaderNodeBsdfHairPrincipled", Melanin=0.4, Offset=0.1)
+    node = find_node(material, "ShaderNodeBsdfHairPrincipled")
+    node.model, node.parametrization = "CHIANG", "MELANIN"
+    made = only_node(material)
+    assert isinstance(made, basicrt.PrincipledHairShader)
+    assert (made.parametrization, made.melanin) == ("melanin", pytest.approx(0.4))
+    node.model = "HUANG"
+    only_node(material, 'node "Principled Hair BSDF": the model Huang is drawn as Chiang')
+    material = new_material("ShaderNodeBsdfHair", Color=COLOR)
+    made = only_node(material)
+    assert isinstance(made, basicrt.HairShader)
+    assert made.component == "reflection"
+
+
 def test_unknown_shader_is_grey() -> None:
     material = new_material("ShaderNodeEeveeSpecular")
     node = only_node(material, 'node "Specular BSDF" is not supported: drawn as diffuse grey')
@@ -589,7 +603,7 @@ def test_unknown_shader_is_grey() -> None:
 def test_warnings_come_once_for_each_item() -> None:
     report = Report()
     for _ in range(2):
-        material = new_material("ShaderNodeBsdfHair", name="Wax")
+        material = new_material("ShaderNodeBsdfRayPortal", name="Wax")
         translate_surface(material, report, Textures(basicrt.Scene()))
         translate_surface(material, report, Textures(basicrt.Scene()))
     assert len(report.warnings) == 2, "one for each of the two materials"

@@ -30,6 +30,7 @@ __all__: list[str] = [
     "ConstantTexture",
     "ConvertColorOperation",
     "CubemapFaceCamera",
+    "Curves",
     "CylindricalCamera",
     "DiffuseShader",
     "EmissionShader",
@@ -44,6 +45,7 @@ __all__: list[str] = [
     "GlassShader",
     "GlossyShader",
     "GradientOperation",
+    "HairShader",
     "HoldoutShader",
     "HueSaturationOperation",
     "Image",
@@ -68,8 +70,10 @@ __all__: list[str] = [
     "OrthographicCamera",
     "PassInfo",
     "PerspectiveCamera",
+    "PointCloud",
     "PointLight",
     "PreethamSky",
+    "PrincipledHairShader",
     "PrincipledShader",
     "Progress",
     "RefractionShader",
@@ -237,6 +241,111 @@ class Sphere:
         """
     @radius.setter
     def radius(self, value: float) -> None: ...
+
+class PointCloud:
+    """
+    Many exact spheres in object space, copied out of arrays and checked once. Read-only.
+
+    positions (N, 3) float32, metres; radii (N,) float32, or one number for all: points of radius 0 can't be hit; randoms (N,)
+    float32, what Point Info calls Random; attributes are (name, "vertex", values), values (N, 3) float32. They have the texture
+    coordinates of Sphere. Where they shine, rays run into them: they are not sampled as lights. Raises SceneError naming the
+    array, the rule and the value.
+    """
+    def __init__(
+        self,
+        positions: numpy.typing.ArrayLike,
+        radii: numpy.typing.ArrayLike,
+        *,
+        randoms: numpy.typing.ArrayLike | None = None,
+        attributes: collections.abc.Sequence[tuple[str, str, numpy.typing.ArrayLike]] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def attributes(self) -> list[tuple[str, str, numpy.typing.NDArray[numpy.float32]]]:
+        """
+        names, domains and values, (N, 3) float32
+        """
+    @property
+    def positions(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (N, 3) float32, object space, metres
+        """
+    @property
+    def radii(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (N,) float32, metres
+        """
+    @property
+    def randoms(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        (N,) float32, or None: all 0
+        """
+
+class Curves:
+    """
+    Hair in object space, copied out of arrays and checked once. Read-only.
+
+    points (N, 3) float32, metres, of one curve after the other; radii (N,) float32, or one number for all; firsts (C,) uint32,
+    the number of each curve's first point. Curves are Catmull-Rom splines through their points, and so are their radii. form:
+    "round", or "ribbon", which is flat and faces the ray. intercepts (N,) float32, how far along its curve a point is; randoms
+    (C,) float32 of each curve, what Curves Info calls Random; uvs (C, 2) float32, where each is rooted; attributes are (name,
+    domain, values): "vertex" has values for each point, "face" for each curve, (·, 3) float32. Curves are seen from outside
+    only, and have no volume. Where they shine, rays run into them: they are not sampled as lights. Raises SceneError naming
+    the array, the rule and the value.
+    """
+    def __init__(
+        self,
+        points: numpy.typing.ArrayLike,
+        radii: numpy.typing.ArrayLike,
+        firsts: numpy.typing.ArrayLike,
+        *,
+        form: str = "round",
+        intercepts: numpy.typing.ArrayLike | None = None,
+        randoms: numpy.typing.ArrayLike | None = None,
+        uvs: numpy.typing.ArrayLike | None = None,
+        attributes: collections.abc.Sequence[tuple[str, str, numpy.typing.ArrayLike]] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def attributes(self) -> list[tuple[str, str, numpy.typing.NDArray[numpy.float32]]]:
+        """
+        names, domains and values, (·, 3) float32
+        """
+    @property
+    def firsts(self) -> numpy.typing.NDArray[numpy.uint32]:
+        """
+        (C,) uint32, each curve's first point
+        """
+    @property
+    def form(self) -> str:
+        """
+        round or ribbon
+        """
+    @property
+    def intercepts(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        (N,) float32, or None: by the points' numbers
+        """
+    @property
+    def points(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (N, 3) float32, object space, metres
+        """
+    @property
+    def radii(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        (N,) float32, metres
+        """
+    @property
+    def randoms(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        (C,) float32, or None: all 0
+        """
+    @property
+    def uvs(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        (C, 2) float32, or None: the intercept and 0
+        """
 
 class TextureRef:
     """
@@ -3135,6 +3244,230 @@ class SubsurfaceShader:
     @scale.setter
     def scale(self, value: float | TextureRef | OperationRef) -> None: ...
 
+class PrincipledHairShader:
+    """
+    Hair by its pigments, colour or absorption.
+
+    parametrization: which of the next few count: melanin, color or absorption
+    color: of much hair, seen from afar; in [0, 1]
+    melanin: how dark natural hair is; in [0, 1]
+    melanin_redness: how red; in [0, 1]
+    tint: that melanin is dyed with; in [0, 1]
+    absorption: per radius of the fibre; at least 0
+    roughness: along the fibre; in [0, 1]
+    radial_roughness: around it; in [0, 1]
+    coat: how much smoother the first reflection is; in [0, 1]
+    ior: refractive index of the fibre; at least 1
+    offset: how far the scales are tilted, radians; in [-1.5707964, 1.5707964]
+    random_color: how much melanin varies; in [0, 1]
+    random_roughness: how much both roughnesses vary; in [0, 1]
+    random: what they vary with: from 0 to 1; in [0, 1]
+    """
+    def __init__(
+        self,
+        parametrization: str = "color",
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.017513, 0.005763, 0.002059),
+        melanin: float | TextureRef | OperationRef = 0.8,
+        melanin_redness: float | TextureRef | OperationRef = 1.0,
+        tint: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (1.0, 1.0, 1.0),
+        absorption: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.245531, 0.52, 1.365),
+        roughness: float | TextureRef | OperationRef = 0.3,
+        radial_roughness: float | TextureRef | OperationRef = 0.3,
+        coat: float | TextureRef | OperationRef = 0.0,
+        ior: float | TextureRef | OperationRef = 1.55,
+        offset: float | TextureRef | OperationRef = 0.0349066,
+        random_color: float | TextureRef | OperationRef = 0.0,
+        random_roughness: float | TextureRef | OperationRef = 0.0,
+        random: float | TextureRef | OperationRef = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def absorption(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        per radius of the fibre; at least 0
+        """
+    @absorption.setter
+    def absorption(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def coat(self) -> float | TextureRef | OperationRef:
+        """
+        how much smoother the first reflection is; in [0, 1]
+        """
+    @coat.setter
+    def coat(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        of much hair, seen from afar; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def ior(self) -> float | TextureRef | OperationRef:
+        """
+        refractive index of the fibre; at least 1
+        """
+    @ior.setter
+    def ior(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def melanin(self) -> float | TextureRef | OperationRef:
+        """
+        how dark natural hair is; in [0, 1]
+        """
+    @melanin.setter
+    def melanin(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def melanin_redness(self) -> float | TextureRef | OperationRef:
+        """
+        how red; in [0, 1]
+        """
+    @melanin_redness.setter
+    def melanin_redness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def offset(self) -> float | TextureRef | OperationRef:
+        """
+        how far the scales are tilted, radians; in [-1.5707964, 1.5707964]
+        """
+    @offset.setter
+    def offset(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def parametrization(self) -> str:
+        """
+        which of the next few count: melanin, color or absorption
+        """
+    @parametrization.setter
+    def parametrization(self, value: str) -> None: ...
+    @property
+    def radial_roughness(self) -> float | TextureRef | OperationRef:
+        """
+        around it; in [0, 1]
+        """
+    @radial_roughness.setter
+    def radial_roughness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def random(self) -> float | TextureRef | OperationRef:
+        """
+        what they vary with: from 0 to 1; in [0, 1]
+        """
+    @random.setter
+    def random(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def random_color(self) -> float | TextureRef | OperationRef:
+        """
+        how much melanin varies; in [0, 1]
+        """
+    @random_color.setter
+    def random_color(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def random_roughness(self) -> float | TextureRef | OperationRef:
+        """
+        how much both roughnesses vary; in [0, 1]
+        """
+    @random_roughness.setter
+    def random_roughness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def roughness(self) -> float | TextureRef | OperationRef:
+        """
+        along the fibre; in [0, 1]
+        """
+    @roughness.setter
+    def roughness(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def tint(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        that melanin is dyed with; in [0, 1]
+        """
+    @tint.setter
+    def tint(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
+class HairShader:
+    """
+    Hair by its highlight, or by the light that shines through.
+
+    component: reflection or transmission
+    color: reflectance; in [0, 1]
+    offset: how far the highlight moves along the fibre, radians; in [-1.5707964, 1.5707964]
+    roughness_u: along the fibre; in [0, 1]
+    roughness_v: around it; in [0, 1]
+    on_curve: 1: fibres run along u; 0: along v, without an offset; in [0, 1]
+    """
+    def __init__(
+        self,
+        component: str = "reflection",
+        color: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.8, 0.8, 0.8),
+        offset: float | TextureRef | OperationRef = 0.0,
+        roughness_u: float | TextureRef | OperationRef = 0.1,
+        roughness_v: float | TextureRef | OperationRef = 1.0,
+        on_curve: float | TextureRef | OperationRef = 1.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def color(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        reflectance; in [0, 1]
+        """
+    @color.setter
+    def color(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def component(self) -> str:
+        """
+        reflection or transmission
+        """
+    @component.setter
+    def component(self, value: str) -> None: ...
+    @property
+    def offset(self) -> float | TextureRef | OperationRef:
+        """
+        how far the highlight moves along the fibre, radians; in [-1.5707964, 1.5707964]
+        """
+    @offset.setter
+    def offset(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def on_curve(self) -> float | TextureRef | OperationRef:
+        """
+        1: fibres run along u; 0: along v, without an offset; in [0, 1]
+        """
+    @on_curve.setter
+    def on_curve(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def roughness_u(self) -> float | TextureRef | OperationRef:
+        """
+        along the fibre; in [0, 1]
+        """
+    @roughness_u.setter
+    def roughness_u(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def roughness_v(self) -> float | TextureRef | OperationRef:
+        """
+        around it; in [0, 1]
+        """
+    @roughness_v.setter
+    def roughness_v(self, value: float | TextureRef | OperationRef) -> None: ...
+
 class RefractionShader:
     """
     Refraction without Fresnel reflection.
@@ -3960,6 +4293,8 @@ class Material:
         | SheenShader
         | ToonShader
         | SubsurfaceShader
+        | PrincipledHairShader
+        | HairShader
         | AovShader,
     ) -> int:
         """
@@ -4024,6 +4359,8 @@ class Material:
         | SheenShader
         | ToonShader
         | SubsurfaceShader
+        | PrincipledHairShader
+        | HairShader
         | AovShader
     ]:
         """
@@ -6535,13 +6872,17 @@ class ShapeTable:
     """
     Entries of a scene by index. Reading gives a copy; assign it back to change the scene.
     """
-    def __getitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> Mesh | Sphere: ...
-    def __iter__(self) -> collections.abc.Iterator[Mesh | Sphere]: ...
+    def __getitem__(
+        self, arg0: typing.SupportsInt | typing.SupportsIndex
+    ) -> Mesh | Sphere | PointCloud | Curves: ...
+    def __iter__(self) -> collections.abc.Iterator[Mesh | Sphere | PointCloud | Curves]: ...
     def __len__(self) -> int: ...
     def __setitem__(
-        self, arg0: typing.SupportsInt | typing.SupportsIndex, arg1: Mesh | Sphere
+        self,
+        arg0: typing.SupportsInt | typing.SupportsIndex,
+        arg1: Mesh | Sphere | PointCloud | Curves,
     ) -> None: ...
-    def append(self, value: Mesh | Sphere) -> int:
+    def append(self, value: Mesh | Sphere | PointCloud | Curves) -> int:
         """
         Adds an entry and returns its index.
         """
@@ -6719,7 +7060,7 @@ class Scene:
     @property
     def shapes(self) -> ShapeTable:
         """
-        Mesh and Sphere
+        Mesh, Sphere, PointCloud and Curves
         """
     @property
     def textures(self) -> TextureTable: ...

@@ -32,7 +32,8 @@ template <class OneLobe>
 constexpr bool is_wide =
     std::is_same_v<OneLobe, Lambert> || std::is_same_v<OneLobe, OrenNayar> || std::is_same_v<OneLobe, Translucent> ||
     std::is_same_v<OneLobe, Sheen> || std::is_same_v<OneLobe, Velvet> || std::is_same_v<OneLobe, DiffuseToon> ||
-    std::is_same_v<OneLobe, Transparent> || std::is_same_v<OneLobe, Subsurface>;
+    std::is_same_v<OneLobe, Transparent> || std::is_same_v<OneLobe, Subsurface> ||
+    std::is_same_v<OneLobe, HairReflection> || std::is_same_v<OneLobe, HairTransmission>;
 
 }  // namespace
 
@@ -53,6 +54,10 @@ void Bsdf::roughen(float least_alpha) {
                      },
                      [&]<class Fresnel>(MicrofacetReflection<Fresnel>& lobe) { return roughen_both(lobe.microfacets); },
                      [&](AshikhminShirley& lobe) { return roughen_both(lobe); }, [](GlossyToon&) { return true; },
+                     [&](ChiangHair& lobe) {
+                       lobe.roughen(least_alpha);
+                       return true;
+                     },
                      []<class OneLobe>(OneLobe&)
                        requires is_wide<OneLobe>
                      { return true; }});
@@ -71,7 +76,7 @@ void Bsdf::remove_glossy(bool removes_reflection, bool removes_transmission) {
                      },
                      [&]<class Fresnel>(MicrofacetReflection<Fresnel>&) { return !removes_reflection; },
                      [&](AshikhminShirley&) { return !removes_reflection; },
-                     [&](GlossyToon&) { return !removes_reflection; },
+                     [&](GlossyToon&) { return !removes_reflection; }, [](ChiangHair&) { return true; },
                      []<class OneLobe>(OneLobe&)
                        requires is_wide<OneLobe>
                      { return true; }});

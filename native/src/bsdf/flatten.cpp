@@ -146,6 +146,55 @@ void flatten(const GlassShader& node, const Target& target, float weight) {
   target.shading.bsdf.add(lobe, scale * weight, lobe.albedo(target.cos_theta()));
 }
 
+// Along the fibre, in the lobes' frame. Surfaces other than curves have fibres along u, or along v where `is_across`.
+Vec3f local_fiber(const Target& target, bool is_across = false) {
+  target.shading.is_uniform = false;
+  const SurfaceDerivatives& derivatives = *target.point.derivatives;
+  const Vec3f along = is_across ? derivatives.dpdv : derivatives.dpdu;
+  return make_frame(target.normal).to_local(target.is_back ? -along : along);
+}
+
+void flatten(const PrincipledHairShader& node, const Target& target, float weight) {
+  const auto varied = [&](float share) { return 1 + 2 * (node.random - 0.5f) * share; };
+  const float factor = varied(node.random_roughness);
+  ChiangHairSettings settings{.roughness = node.roughness * factor,
+                              .radial_roughness = node.radial_roughness * factor,
+                              .coat = node.coat,
+                              .ior = node.ior,
+                              .offset = node.offset};
+  switch (node.parametrization) {
+    case HairParametrization::absorption:
+      settings.absorption = node.absorption.constant;
+      break;
+    case HairParametrization::color:
+      settings.absorption = hair_absorption_of_color(node.color.constant, settings.radial_roughness);
+      break;
+    case HairParametrization::melanin: {
+      const float share = node.melanin * varied(std::clamp(node.random_color.constant, 0.0f, 1.0f));
+      // From even steps for the eye to how much of it there is.
+      const float melanin = -std::log(std::max(1 - share, 0.0001f));
+      settings.absorption =
+          hair_absorption_of_melanin(melanin * (1 - node.melanin_redness), melanin * node.melanin_redness) +
+          hair_absorption_of_color(node.tint.constant, settings.radial_roughness);
+      break;
+    }
+  }
+  const ChiangHair lobe(settings, local_fiber(target));
+  // Dark hair reflects too: none is left out as black.
+  target.shading.bsdf.add(lobe, Color(weight), lobe.albedo() + Color(0.05f));
+}
+
+void flatten(const HairShader& node, const Target& target, float weight) {
+  const bool is_fiber = node.is_on_curve.constant != 0;
+  const float offset = is_fiber ? -node.offset.constant : 0;
+  const Vec3f fiber = local_fiber(target, !is_fiber);
+  const Color color = node.color.constant * weight;
+  if (node.component == HairComponent::reflection)
+    target.shading.bsdf.add(HairReflection(fiber, node.roughness_u, node.roughness_v, offset), color);
+  else
+    target.shading.bsdf.add(HairTransmission(fiber, node.roughness_u, node.roughness_v, offset), color);
+}
+
 // What the lobes of a shader without varying inputs are turned to.
 template <class Shader>
 Vec3f normal_of(const Shader& shader, const SurfacePoint& point, bool is_back) {

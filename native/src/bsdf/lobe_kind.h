@@ -16,7 +16,7 @@ template <class AnyLobe>
 constexpr ScatterKind reflection_kind_of(const AnyLobe& /*lobe*/) {
   if constexpr (std::is_same_v<AnyLobe, Transparent>)
     return ScatterKind::transparent;
-  else if constexpr (std::is_same_v<AnyLobe, Translucent>)
+  else if constexpr (std::is_same_v<AnyLobe, Translucent> || std::is_same_v<AnyLobe, HairTransmission>)
     return ScatterKind::transmission;
   else if constexpr (requires { AnyLobe::reflection_kind; })
     return AnyLobe::reflection_kind;

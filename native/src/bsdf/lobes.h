@@ -5,12 +5,14 @@
 #include <variant>
 
 #include "bsdf/ashikhmin_shirley.h"
+#include "bsdf/chiang_hair.h"
 #include "bsdf/dielectric.h"
 #include "bsdf/film_dielectric.h"
 #include "bsdf/lambert.h"
 #include "bsdf/microfacet_reflection.h"
 #include "bsdf/oren_nayar.h"
 #include "bsdf/sheen.h"
+#include "bsdf/simple_hair.h"
 #include "bsdf/subsurface.h"
 #include "bsdf/thin_film.h"
 #include "bsdf/toon.h"
@@ -41,7 +43,8 @@ using Lobe = std::variant<Lambert,                                       //
                           MicrofacetReflection<FilmInterfaceFresnel>,    //
                           MicrofacetReflection<FilmConductorFresnel>,    //
                           FilmDielectric,                                //
-                          Subsurface>;
+                          Subsurface,                                    //
+                          ChiangHair, HairReflection, HairTransmission>;
 
 // All sixteen of a Bsdf's are copied with it: a lobe has no more room than the first of them needed.
 static_assert(sizeof(Lobe) <= 40);

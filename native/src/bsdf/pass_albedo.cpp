@@ -22,6 +22,8 @@ Color albedo_of(const MicrofacetReflection<InterfaceFresnel>& lobe, float cos_th
   return Color(layer.albedo / layer.scale);
 }
 
+Color albedo_of(const ChiangHair& lobe, float /*cos_theta*/) { return lobe.albedo(); }
+
 template <class Fresnel>
 Color albedo_of(const MicrofacetReflection<Fresnel>& lobe, float cos_theta) {
   const Microfacets& facets = lobe.microfacets;

@@ -181,6 +181,11 @@ void refit(MeshTree& tree, const Mesh& mesh, int threads) {
   tree.tree.bounds = refit_nodes(tree.tree, block_bounds);
 }
 
+TreeLayout build_box_layout(std::span<const Bounds3f> boxes, const BvhConfig& config) {
+  WorkerPool pool = make_pool(boxes.size(), config);
+  return build_layout_over(boxes.size(), [&](std::uint32_t i) { return boxes[i]; }, config, pool);
+}
+
 NodeTree build_instance_tree(std::span<const Bounds3f> boxes, const BvhConfig& config) {
   WorkerPool pool = make_pool(boxes.size(), config);
   std::vector<Bounds3f> filled;

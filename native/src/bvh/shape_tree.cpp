@@ -17,7 +17,17 @@ ShapeTree build_shape_tree(const Shape& shape, const BvhConfig& config) {
                                  const Bounds3f bounds = tree.tree.bounds;
                                  return ShapeTree{std::move(tree), bounds};
                                },
-                               [&](const Sphere& sphere) { return ShapeTree{sphere, bounds(shape)}; }},
+                               [&](const Sphere& sphere) { return ShapeTree{sphere, bounds(shape)}; },
+                               [&](const PointCloud& cloud) {
+                                 PointTree tree = build_point_tree(cloud, config);
+                                 const Bounds3f bounds = tree.boxes.tree.bounds;
+                                 return ShapeTree{std::move(tree), bounds};
+                               },
+                               [&](const Curves& curves) {
+                                 CurveTree tree = build_curve_tree(curves, config);
+                                 const Bounds3f bounds = tree.boxes.tree.bounds;
+                                 return ShapeTree{std::move(tree), bounds};
+                               }},
                     shape);
 }
 

@@ -6,13 +6,14 @@
 
 #include "bvh/bvh.h"
 #include "bvh/mesh_tree.h"
+#include "bvh/round_trees.h"
 #include "geometry/shape.h"
 
 namespace basicrt {
 
 // Keeps no pointer to the shape it was built from.
 struct ShapeTree {
-  std::variant<MeshTree, MovingMeshTree, Sphere> geometry;
+  std::variant<MeshTree, MovingMeshTree, Sphere, PointTree, CurveTree> geometry;
   Bounds3f bounds;  // empty where there is nothing to hit
 };
 

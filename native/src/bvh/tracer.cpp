@@ -240,10 +240,13 @@ bool Tracer::intersect_precisely(std::uint32_t instance, const Ray& ray, Hit& hi
            is_merged && from != Hit::none && kernel_instances_[from].first_merged != no_reference)
     skipped = kernel_instances_[from].first_merged + ray.from_primitive;
   const auto in_mesh = [&](const auto& mesh) { return intersect_mesh_precisely(mesh, local, skipped); };
-  const auto on_sphere = [&](const Sphere& sphere) { return intersect_sphere_precisely(sphere, local); };
+  // Rays may well meet the same point again, and never the curve that they leave.
+  const Overloaded in_shape{[&](const Sphere& sphere) { return intersect_sphere_precisely(sphere, local); },
+                            [&](const PointTree& points) { return basicrt::intersect_precisely(points, local); },
+                            [&](const CurveTree& curves) { return basicrt::intersect_precisely(curves, local); },
+                            in_mesh};
   const std::optional<Hit> found =
-      is_merged ? in_mesh(merged_)
-                : std::visit(Overloaded{on_sphere, in_mesh}, trees_[instances_[instance].shape].geometry);
+      is_merged ? in_mesh(merged_) : std::visit(in_shape, trees_[instances_[instance].shape].geometry);
   if (!found) return false;
   hit = *found;
   hit.instance = instance;

@@ -38,4 +38,7 @@ struct TreeLayout {
 [[nodiscard]] TreeLayout collapse_to_layout(const Bvh& bvh, std::span<const Bounds3f> boxes, int leaf_size,
                                             WorkProgress* progress);
 
+// Over boxes of anything, none of which may be empty, as `config` says. The same for any number of threads.
+[[nodiscard]] TreeLayout build_box_layout(std::span<const Bounds3f> boxes, const BvhConfig& config);
+
 }  // namespace basicrt

@@ -8,30 +8,10 @@
 #include <utility>
 
 #include "base/error.h"
+#include "geometry/check_arrays.h"
 
 namespace basicrt {
 namespace {
-
-std::string entry(std::string_view item, std::string_view array, std::size_t index) {
-  return std::string(item) + "." + std::string(array) + "[" + std::to_string(index) + "]";
-}
-
-void check_length(std::string_view item, std::string_view array, std::size_t length, std::size_t expected,
-                  std::string_view rule) {
-  if (length == 0 || length == expected) return;
-  throw SceneError(
-      std::string(item) + "." + std::string(array),
-      "must have " + std::string(rule) + " (" + std::to_string(expected) + ") or none, has " + std::to_string(length));
-}
-
-bool is_finite_entry(Vec3f v) { return is_finite(v); }
-bool is_finite_entry(Vec2f v) { return std::isfinite(v.x) && std::isfinite(v.y); }
-
-template <class V>
-void check_finite(std::string_view item, std::string_view array, const std::vector<V>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!is_finite_entry(values[i])) throw SceneError(entry(item, array, i), "must be finite, is NaN or infinite");
-}
 
 // To within what double precision can tell.
 bool has_area(const Mesh& mesh, std::uint32_t triangle) {
@@ -55,7 +35,7 @@ void keep(std::vector<T>& values, const std::vector<std::uint32_t>& kept, std::s
 void check_key_length(std::string_view item, std::string_view array, std::size_t key, std::size_t length,
                       std::size_t expected) {
   if (length != expected)
-    throw SceneError(entry(item, array, key),
+    throw SceneError(array_entry(item, array, key),
                      "has " + std::to_string(length) + " vectors, but at time 0 there are " + std::to_string(expected));
 }
 
@@ -98,8 +78,8 @@ void validate(const Mesh& mesh, std::string_view item) {
   for (std::size_t i = 0; i < count; ++i)
     for (const std::uint32_t index : mesh.triangles[i])
       if (index >= mesh.positions.size())
-        throw SceneError(entry(item, "triangles", i), "index " + std::to_string(index) + ", but the mesh has " +
-                                                          std::to_string(mesh.positions.size()) + " positions");
+        throw SceneError(array_entry(item, "triangles", i), "index " + std::to_string(index) + ", but the mesh has " +
+                                                                std::to_string(mesh.positions.size()) + " positions");
   check_finite(item, "positions", mesh.positions);
   check_finite(item, "corner_normals", mesh.corner_normals);
   check_finite(item, "uvs", mesh.uvs);

@@ -7,20 +7,10 @@
 
 #include "base/error.h"
 #include "base/overloaded.h"
-#include "math/next_float.h"
+#include "geometry/sphere.h"
 
 namespace basicrt {
 namespace {
-
-Bounds3f bounds_of(const Sphere& sphere) {
-  Bounds3f result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    // One float wider: center +- radius was rounded.
-    result.lower[axis] = next_float_down(sphere.center[axis] - sphere.radius);
-    result.upper[axis] = next_float_up(sphere.center[axis] + sphere.radius);
-  }
-  return result;
-}
 
 void validate_sphere(const Sphere& sphere, std::string_view item) {
   const std::string name(item);
@@ -32,19 +22,21 @@ void validate_sphere(const Sphere& sphere, std::string_view item) {
 }  // namespace
 
 Bounds3f bounds(const Shape& shape) {
-  return std::visit(
-      Overloaded{[](const Mesh& mesh) { return bounds(mesh); }, [](const Sphere& sphere) { return bounds_of(sphere); }},
-      shape);
+  const auto of_sphere = [](const Sphere& sphere) { return sphere_bounds(sphere.center, sphere.radius); };
+  return std::visit(Overloaded{of_sphere, [](const auto& other) { return bounds(other); }}, shape);
 }
 
 bool is_empty(const Shape& shape) {
-  const auto* mesh = std::get_if<Mesh>(&shape);
-  return mesh && mesh->triangles.empty();
+  return std::visit(
+      Overloaded{[](const Mesh& mesh) { return mesh.triangles.empty(); }, [](const Sphere&) { return false; },
+                 [](const PointCloud& cloud) { return bounds(cloud).is_empty(); },
+                 [](const Curves& curves) { return !has_segments(curves); }},
+      shape);
 }
 
 void validate(const Shape& shape, std::string_view item) {
-  std::visit(Overloaded{[&](const Mesh& mesh) { validate(mesh, item); },
-                        [&](const Sphere& sphere) { validate_sphere(sphere, item); }},
+  std::visit(Overloaded{[&](const Sphere& sphere) { validate_sphere(sphere, item); },
+                        [&](const auto& other) { validate(other, item); }},
              shape);
 }
 

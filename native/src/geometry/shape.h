@@ -7,7 +7,9 @@
 #include <variant>
 
 #include "base/describe.h"
+#include "geometry/curves.h"
 #include "geometry/mesh.h"
+#include "geometry/point_cloud.h"
 
 namespace basicrt {
 
@@ -22,10 +24,10 @@ struct Sphere {
   }
 };
 
-using Shape = std::variant<Mesh, Sphere>;
+using Shape = std::variant<Mesh, Sphere, PointCloud, Curves>;
 
 [[nodiscard]] Bounds3f bounds(const Shape& shape);
-[[nodiscard]] bool is_empty(const Shape& shape);  // a mesh without triangles: nothing can hit it
+[[nodiscard]] bool is_empty(const Shape& shape);  // a mesh without triangles and the like: nothing can hit it
 void validate(const Shape& shape, std::string_view item);
 
 }  // namespace basicrt

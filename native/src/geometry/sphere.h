@@ -8,8 +8,19 @@
 
 #include "geometry/precise_ray.h"
 #include "geometry/shape.h"
+#include "math/next_float.h"
 
 namespace basicrt {
+
+inline Bounds3f sphere_bounds(Vec3f center, float radius) {
+  Bounds3f result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // One float wider: center +- radius was rounded.
+    result.lower[axis] = next_float_down(center[axis] - radius);
+    result.upper[axis] = next_float_up(center[axis] + radius);
+  }
+  return result;
+}
 
 // The nearer point of the two within [t_min, t_max], which becomes the ray's new t_max. The discriminant is that of
 // Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection": it holds for small and distant spheres.
@@ -30,6 +41,10 @@ inline std::optional<double> intersect_sphere(PreciseRay& ray, const Sphere& sph
     return t;
   }
   return std::nullopt;
+}
+
+inline Sphere sphere_of(const PointCloud& cloud, std::uint32_t point) {
+  return {.center = cloud.positions[point], .radius = cloud.radii[point]};
 }
 
 // Longitude and latitude in [0, 1] of a direction from the centre, poles on z.

@@ -28,8 +28,13 @@ LocalPoint local_point_on(const Sphere& sphere, const PreciseRay& ray, const Hit
           .position = center + outward * radius,
           .error = Vec3d(gamma(16) * (length(center) + radius) + along_ray),
           .normal = outward,
+          .shading_normal = outward,
           .uv = Vec2f(sphere_uv(outward)),
           .is_backfacing = dot(ray.direction, outward) > 0};
+}
+
+LocalPoint local_point_on(const PointCloud& cloud, const PreciseRay& ray, const Hit& hit) {
+  return local_point_on(sphere_of(cloud, hit.primitive), ray, hit);
 }
 
 LocalDerivatives derivatives_on_sphere(const Sphere& sphere, Vec3d position) {

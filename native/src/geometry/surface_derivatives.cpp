@@ -5,6 +5,7 @@
 
 #include "base/overloaded.h"
 #include "geometry/local_point.h"
+#include "geometry/sphere.h"
 #include "geometry/surface_point.h"
 
 namespace basicrt {
@@ -65,7 +66,12 @@ void add_derivatives(SurfacePoint& point, const Shape& shape, const Placement& p
   const auto on_sphere = [&](const Sphere& sphere) {
     return derivatives_on_sphere(sphere, placement.world_to_object.point(Vec3d(point.position)));
   };
-  const LocalDerivatives local = std::visit(Overloaded{on_triangle, on_sphere}, shape);
+  const auto on_point = [&](const PointCloud& cloud) { return on_sphere(sphere_of(cloud, point.primitive)); };
+  const auto on_curve = [&](const Curves& curves) {
+    const Vec3d normal = placement.object_to_world.transposed_vector(Vec3d(point.geometric_normal));
+    return derivatives_on_curve(curves, point.primitive, point.barycentrics.x, normal);
+  };
+  const LocalDerivatives local = std::visit(Overloaded{on_triangle, on_sphere, on_point, on_curve}, shape);
   SurfaceDerivatives& derivatives = point.derivatives.emplace();
   derivatives.dpdu = Vec3f(placement.object_to_world.vector(local.dpdu));
   derivatives.dpdv = Vec3f(placement.object_to_world.vector(local.dpdv));

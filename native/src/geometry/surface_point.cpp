@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/overloaded.h"
 #include "geometry/error_bounds.h"
 #include "geometry/kernels/chosen_point_kernel.h"
 #include "geometry/local_point.h"
@@ -27,7 +28,7 @@ WorldPoint translate(const LocalPoint& local, Vec3d translation) {
   return {.position = local.position + translation,
           .error = local.error + (abs(local.position) + abs(translation)) * gamma(4),
           .normal = local.normal,
-          .shading_normal = Vec3f(local.normal)};
+          .shading_normal = Vec3f(local.shading_normal)};
 }
 
 // Normals by the inverse transpose, which keeps the outward side outward under mirroring too.
@@ -36,7 +37,7 @@ WorldPoint transform(const LocalPoint& local, const TransformD& to_world, const 
   return {.position = position,
           .error = point_error(to_world, local.position, local.error + point_error(to_object, position, Vec3d(0))),
           .normal = to_object.transposed_vector(local.normal),
-          .shading_normal = Vec3f(to_object.transposed_vector(Vec3d(Vec3f(local.normal))))};
+          .shading_normal = Vec3f(to_object.transposed_vector(Vec3d(Vec3f(local.shading_normal))))};
 }
 
 // The direction that `v` has, or `otherwise` where it has none.
@@ -48,8 +49,13 @@ Vec3<T> direction_or(Vec3<T> v, Vec3<T> otherwise) {
              : otherwise;
 }
 
-SurfacePoint make_point(const Sphere& sphere, const Placement& placement, const Ray& ray, const Hit& hit) {
-  const LocalPoint local = local_point_on(sphere, placement.to_object(ray), hit);
+// On anything but a mesh.
+SurfacePoint make_point(const Shape& shape, const Placement& placement, const Ray& ray, const Hit& hit) {
+  const PreciseRay local_ray = placement.to_object(ray);
+  const LocalPoint local =
+      std::visit(Overloaded{[](const Mesh&) { return LocalPoint(); },
+                            [&](const auto& other) { return local_point_on(other, local_ray, hit); }},
+                 shape);
   const WorldPoint world = placement.is_translation
                                ? translate(local, placement.object_to_world.column(3))
                                : transform(local, placement.object_to_world, placement.world_to_object);
@@ -59,11 +65,11 @@ SurfacePoint make_point(const Sphere& sphere, const Placement& placement, const 
           .geometric_normal = normal,
           .shading_normal = direction_or(world.shading_normal, normal),
           .uv = local.uv,
-          .barycentrics = local.uv,
+          .barycentrics = std::holds_alternative<Curves>(shape) ? Vec2f{hit.u, hit.v} : local.uv,
           .t = static_cast<float>(local.t),
           .time = ray.time,
           .instance = hit.instance,
-          .primitive = Hit::none,
+          .primitive = std::holds_alternative<Sphere>(shape) ? Hit::none : hit.primitive,
           .material_slot = 0,
           .is_backfacing = local.is_backfacing,
           .derivatives = {}};
@@ -148,7 +154,7 @@ void make_some_points(std::span<const SurfaceHit> hits) {
     if (const auto* mesh = std::get_if<Mesh>(hit.shape))
       groups[hit.placement->is_translation][!mesh->corner_normals.empty()].add(*mesh, hit);
     else
-      *hit.point = make_point(std::get<Sphere>(*hit.shape), *hit.placement, *hit.ray, *hit.hit);
+      *hit.point = make_point(*hit.shape, *hit.placement, *hit.ray, *hit.hit);
   }
   for (const bool is_translation : {false, true})
     for (const bool has_normals : {false, true})
@@ -165,7 +171,7 @@ void make_surface_points(std::span<const SurfaceHit> hits) {
 
 SurfacePoint make_surface_point(const Shape& shape, const Placement& placement, const Ray& ray, const Hit& hit) {
   const auto* mesh = std::get_if<Mesh>(&shape);
-  if (mesh == nullptr) return make_point(std::get<Sphere>(shape), placement, ray, hit);
+  if (mesh == nullptr) return make_point(shape, placement, ray, hit);
   MovedTriangle moved;
   const PointRequest request = make_request(*mesh, {&shape, &placement, &ray, &hit, nullptr}, moved);
   PointResult result;

@@ -33,11 +33,12 @@ struct SurfacePoint {
   Vec3f geometric_normal;  // unit length; in object space by the winding p0 p1 p2, whatever the transform mirrors
   Vec3f shading_normal;    // unit length, on the same side as geometric_normal
   Vec2f uv;
-  Vec2f barycentrics;  // the shares of a triangle's second and third corner; a sphere's uv
-  float t = 0;         // distance along the ray, solved in double precision
-  float time = 0;      // the ray's
+  Vec2f
+      barycentrics;  // the shares of a triangle's second and third corner; a sphere's uv; along and across a curve's segment
+  float t = 0;       // distance along the ray, solved in double precision
+  float time = 0;  // the ray's
   std::uint32_t instance = 0;
-  std::uint32_t primitive = 0;  // the triangle; Hit::none on a sphere
+  std::uint32_t primitive = 0;  // the triangle, point or segment; Hit::none on a sphere
   std::uint32_t material_slot = 0;
   bool is_backfacing = false;                     // the ray came from the side that geometric_normal points away from
   std::optional<SurfaceDerivatives> derivatives;  // once add_derivatives() was called

@@ -77,7 +77,10 @@ class SurfacePoints {
 [[nodiscard]] inline ShadingContext shading_context(const PreparedScene& scene, const SurfacePoint& point,
                                                     std::uint32_t ray_kinds) {
   const PreparedScene::PreparedInstance& instance = scene.instances[point.instance];
-  return {.mesh = std::get_if<Mesh>(&scene.shapes[instance.shape]),
+  const Shape& shape = scene.shapes[instance.shape];
+  return {.mesh = std::get_if<Mesh>(&shape),
+          .curves = std::get_if<Curves>(&shape),
+          .points = std::get_if<PointCloud>(&shape),
           .placement = &instance.placement,
           .object = &instance.info,
           .world_to_camera = &scene.world_to_camera,

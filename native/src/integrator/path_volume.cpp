@@ -66,7 +66,7 @@ void trace_probes(const PreparedScene& scene, std::span<Probe> probes) {
       if (!hits[i].is_hit()) continue;
       Probe& probe = probes[active[i]];
       const SurfacePoint point = surface_point_at(scene, probe.ray, hits[i]);
-      if (const auto& medium = scene.material_of(point).medium) probe.count(point, *medium);
+      if (const Medium* medium = scene.medium_of(point)) probe.count(point, *medium);
       continue_behind(probe.ray, hits[i], point);
       active[kept++] = active[i];
     }
@@ -285,7 +285,7 @@ bool PathIntegrator::scatter_in_media(Path& path, Ray& ray, float distance) {
 void PathIntegrator::cross_surface(MediaStack& media, const SurfacePoint& point) const {
   if (point.is_backfacing)
     media.leave(point.instance);
-  else if (const auto& medium = scene_.material_of(point).medium)
+  else if (const Medium* medium = scene_.medium_of(point))
     media.enter(point.instance, *medium);
 }
 

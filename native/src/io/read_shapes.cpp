@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shapes: meshes from OBJ files or written out, and spheres.
+// Shapes: meshes from OBJ files or written out, spheres, point clouds and curves.
 #include <array>
 #include <variant>
 
@@ -106,6 +106,59 @@ Id<Shape> read_sphere_shape(SceneReader& reader, const JsonValue& object) {
   return reader.scene.shapes.append(sphere);
 }
 
+template <class Number>
+std::vector<Number> read_list(const JsonValue& object, std::string_view key) {
+  std::vector<Number> numbers;
+  if (const auto json = object.find(key)) read_numbers(*json, numbers);
+  return numbers;
+}
+
+// For each of `count` things a radius, or one for all.
+std::vector<float> read_radii(const JsonValue& object, std::size_t count) {
+  const JsonValue radii = object.require("radii");
+  if (!radii.json().is_number()) return read_list<float>(object, "radii");
+  float radius = 0;
+  read(radii, radius);
+  return std::vector<float>(count, radius);
+}
+
+constexpr std::array<std::string_view, 4> point_cloud_keys = {"positions", "radii", "randoms", "attributes"};
+
+Id<Shape> read_point_cloud(SceneReader& reader, const JsonValue& object) {
+  (void)object.require("positions");
+  PointCloud cloud{.positions = read_elements<Vec3f, 3>(object, "positions")};
+  cloud.radii = read_radii(object, cloud.positions.size());
+  cloud.randoms = read_list<float>(object, "randoms");
+  if (const auto attributes = object.find("attributes")) cloud.attributes = read_attributes(*attributes);
+  validate(cloud, object.path());
+  return reader.scene.shapes.append(std::move(cloud));
+}
+
+constexpr std::array<std::string_view, 8> curves_keys = {"points",     "radii",   "firsts", "form",
+                                                         "intercepts", "randoms", "uvs",    "attributes"};
+
+Id<Shape> read_curves(SceneReader& reader, const JsonValue& object) {
+  (void)object.require("points");
+  (void)object.require("firsts");
+  Curves curves{.points = read_elements<Vec3f, 3>(object, "points")};
+  curves.radii = read_radii(object, curves.points.size());
+  curves.firsts = read_list<std::uint32_t>(object, "firsts");
+  read_optional(object, "form", curves.form);
+  curves.intercepts = read_list<float>(object, "intercepts");
+  curves.randoms = read_list<float>(object, "randoms");
+  curves.uvs = read_elements<Vec2f, 2>(object, "uvs");
+  if (const auto attributes = object.find("attributes")) curves.attributes = read_attributes(*attributes);
+  validate(curves, object.path());
+  return reader.scene.shapes.append(std::move(curves));
+}
+
+template <std::size_t count>
+std::vector<std::string_view> with_type(const std::array<std::string_view, count>& keys) {
+  std::vector<std::string_view> result = {"type"};
+  result.insert(result.end(), keys.begin(), keys.end());
+  return result;
+}
+
 std::vector<std::string_view> all_mesh_keys() {
   std::vector<std::string_view> keys = {"type", "path"};
   keys.insert(keys.end(), inline_mesh_keys.begin(), inline_mesh_keys.end());
@@ -119,7 +172,9 @@ struct ShapeKind {
 };
 
 const std::array shape_kinds = {ShapeKind{"mesh", all_mesh_keys(), read_mesh_shape},
-                                ShapeKind{Sphere::kind, known_keys<Sphere>(), read_sphere_shape}};
+                                ShapeKind{Sphere::kind, known_keys<Sphere>(), read_sphere_shape},
+                                ShapeKind{PointCloud::kind, with_type(point_cloud_keys), read_point_cloud},
+                                ShapeKind{Curves::kind, with_type(curves_keys), read_curves}};
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <set>
 #include <variant>
 
+#include "base/overloaded.h"
 #include "io/described_json.h"
 #include "io/file.h"
 #include "io/ray_kinds.h"
@@ -136,6 +137,12 @@ Json write_material(const Material& material, const std::string& key, const Scen
   return json;
 }
 
+void write_attributes(const std::vector<MeshAttribute>& attributes, Json& json) {
+  for (const MeshAttribute& attribute : attributes)
+    json["attributes"].push_back(
+        {{"name", attribute.name}, {"domain", write(attribute.domain)}, {"values", write_array(attribute.values)}});
+}
+
 Json write_mesh(const Mesh& mesh) {
   Json json = {{"type", "mesh"}};
   json["positions"] = write_array(mesh.positions);
@@ -147,9 +154,7 @@ Json write_mesh(const Mesh& mesh) {
     json["motion_positions"].push_back(write_array(positions));
   for (const std::vector<Vec3f>& normals : mesh.motion_corner_normals)
     json["motion_corner_normals"].push_back(write_array(normals));
-  for (const MeshAttribute& attribute : mesh.attributes)
-    json["attributes"].push_back(
-        {{"name", attribute.name}, {"domain", write(attribute.domain)}, {"values", write_array(attribute.values)}});
+  write_attributes(mesh.attributes, json);
   if (mesh.texture_space_min != Vec3f(0.0f) || mesh.texture_space_size != Vec3f(1.0f)) {
     json["texture_space_min"] = write(mesh.texture_space_min);
     json["texture_space_size"] = write(mesh.texture_space_size);
@@ -157,9 +162,34 @@ Json write_mesh(const Mesh& mesh) {
   return json;
 }
 
+Json write_point_cloud(const PointCloud& cloud) {
+  Json json = {{"type", PointCloud::kind}};
+  json["positions"] = write_array(cloud.positions);
+  json["radii"] = write_array(cloud.radii);
+  if (!cloud.randoms.empty()) json["randoms"] = write_array(cloud.randoms);
+  write_attributes(cloud.attributes, json);
+  return json;
+}
+
+Json write_curves(const Curves& curves) {
+  Json json = {{"type", Curves::kind}};
+  json["points"] = write_array(curves.points);
+  json["radii"] = write_array(curves.radii);
+  json["firsts"] = write_array(curves.firsts);
+  if (curves.form != CurveForm::round) json["form"] = write(curves.form);
+  if (!curves.intercepts.empty()) json["intercepts"] = write_array(curves.intercepts);
+  if (!curves.randoms.empty()) json["randoms"] = write_array(curves.randoms);
+  if (!curves.uvs.empty()) json["uvs"] = write_array(curves.uvs);
+  write_attributes(curves.attributes, json);
+  return json;
+}
+
 Json write_shape(const Shape& shape) {
-  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return write_mesh(*mesh);
-  return write_fields(std::get<Sphere>(shape));
+  return std::visit(Overloaded{[](const Mesh& mesh) { return write_mesh(mesh); },
+                               [](const Sphere& sphere) { return Json(write_fields(sphere)); },
+                               [](const PointCloud& cloud) { return write_point_cloud(cloud); },
+                               [](const Curves& curves) { return write_curves(curves); }},
+                    shape);
 }
 
 Json write_instance(const Instance& instance, const SceneKeys& keys) {

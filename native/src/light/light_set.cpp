@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "base/overloaded.h"
 
 namespace basicrt {
@@ -75,7 +76,9 @@ void LightSet::add_emitter(const EmissiveInstance& instance) {
                           picker_.add_source(1);
                           picker_.add({source, 0}, emitter.bounds());
                           emitters_.emplace_back(emitter);
-                        }},
+                        },
+                        // Rays run into those: see find_emission().
+                        [](const PointCloud&) { BASICRT_ASSERT(false); }, [](const Curves&) { BASICRT_ASSERT(false); }},
              *instance.shape);
 }
 

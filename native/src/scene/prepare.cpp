@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/overloaded.h"
 #include "base/parallel_for.h"
 #include "bsdf/bsdf.h"
 #include "film/cryptomatte.h"
@@ -20,8 +21,8 @@ namespace {
 
 // How often prepare_watched() calls.
 constexpr std::chrono::milliseconds watch_interval{40};
-// Shapes with fewer triangles are built side by side, each by one thread.
-constexpr std::size_t large_mesh = 32768;
+// Shapes with fewer triangles, points or segments are built side by side, each by one thread.
+constexpr std::size_t large_shape = 32768;
 
 BvhConfig bvh_config(const RenderSettings& settings, const PrepareOptions& options) {
   BvhConfig config;
@@ -31,25 +32,29 @@ BvhConfig bvh_config(const RenderSettings& settings, const PrepareOptions& optio
   return config;
 }
 
-std::size_t triangle_count(const Shape& shape) {
-  const auto* mesh = std::get_if<Mesh>(&shape);
-  return mesh ? mesh->triangles.size() : 0;
+// Of triangles and the like.
+std::size_t primitive_count(const Shape& shape) {
+  return std::visit(
+      Overloaded{[](const Mesh& mesh) { return mesh.triangles.size(); }, [](const Sphere&) { return std::size_t{0}; },
+                 [](const PointCloud& cloud) { return cloud.positions.size(); },
+                 [](const Curves& curves) { return curves.points.size(); }},
+      shape);
 }
 
 // Of all its trees.
-std::size_t tree_triangle_count(const Shape& shape) {
+std::size_t tree_primitive_count(const Shape& shape) {
   const auto* mesh = std::get_if<Mesh>(&shape);
-  return triangle_count(shape) * (mesh && mesh->is_deforming() ? mesh->motion_intervals() : 1);
+  return primitive_count(shape) * (mesh && mesh->is_deforming() ? mesh->motion_intervals() : 1);
 }
 
 // Large shapes one by one with all threads, then the small ones side by side.
 void build_trees(const std::vector<Shape>& shapes, const std::vector<std::uint32_t>& to_build, const BvhConfig& config,
                  std::vector<ShapeTree>& trees) {
   if (config.progress)
-    for (const std::uint32_t i : to_build) config.progress->expect(build_work(tree_triangle_count(shapes[i])));
+    for (const std::uint32_t i : to_build) config.progress->expect(build_work(tree_primitive_count(shapes[i])));
   std::vector<std::uint32_t> small;
   for (const std::uint32_t i : to_build) {
-    if (triangle_count(shapes[i]) < large_mesh)
+    if (primitive_count(shapes[i]) < large_shape)
       small.push_back(i);
     else
       trees[i] = build_shape_tree(shapes[i], config);
@@ -94,7 +99,9 @@ std::vector<ShapeTree> prepare_shapes(const Scene& scene, Report& report, Prepar
     const std::string item = "shapes[" + std::to_string(i) + "]";
     prepared.shapes.push_back(usable_shape(scene.shapes[i], item, report));
     if (is_instanced[i] && is_empty(prepared.shapes.back()))
-      report.warn(item + ": the mesh has no triangles and is left out");
+      report.warn(item + (std::holds_alternative<Mesh>(prepared.shapes.back())
+                              ? ": the mesh has no triangles and is left out"
+                              : ": has nothing that can be hit and is left out"));
     to_build.push_back(i);
   }
   build_trees(prepared.shapes, to_build, config, trees);
@@ -144,6 +151,7 @@ PreparedScene::PreparedInstance prepare_instance(const Scene& scene, const Prepa
                                          .motion = motion_of(instance),
                                          .materials = resolve_materials(instance, default_index),
                                          .info = instance.info,
+                                         .has_inside = !std::holds_alternative<Curves>(scene.shapes[instance.shape]),
                                          .is_holdout = instance.is_holdout,
                                          .is_shadow_catcher = instance.is_shadow_catcher,
                                          .shadow_terminator_offset = shadow_terminator_offset(scene, instance),
@@ -243,7 +251,7 @@ bool move_instances(const Scene& scene, PreparedScene& prepared, const BvhConfig
 void find_volumes(const Scene& scene, PreparedScene& prepared) {
   const auto has_medium = [&](std::uint32_t material) { return prepared.materials[material].medium.has_value(); };
   for (const PreparedScene::PreparedInstance& instance : prepared.instances) {
-    if (!std::ranges::any_of(instance.materials, has_medium)) continue;
+    if (!instance.has_inside || !std::ranges::any_of(instance.materials, has_medium)) continue;
     const Bounds3f local = bounds(prepared.shapes[instance.shape]);
     Bounds3f world;
     const auto extend_by = [&](const TransformD& object_to_world) {
@@ -258,8 +266,14 @@ void find_volumes(const Scene& scene, PreparedScene& prepared) {
   prepared.has_volumes = !prepared.volume_bounds.empty() || prepared.world_volume != Id<Material>::none;
 }
 
+// Points and curves that shine are not among the lights: what runs into them gathers all that they emit.
+bool is_sampled_as_light(const Shape& shape) {
+  return std::holds_alternative<Mesh>(shape) || std::holds_alternative<Sphere>(shape);
+}
+
 std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::uint32_t index) {
   const PreparedScene::PreparedInstance& instance = scene.instances[index];
+  if (!is_sampled_as_light(scene.shapes[instance.shape])) return std::nullopt;
   EmissiveInstance result{.instance = index,
                           .light_group = instance.light_group,
                           .shape = &scene.shapes[instance.shape],

@@ -28,7 +28,8 @@ struct PreparedScene {
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
     bool needs_derivatives = false;        // one of the materials does
     ObjectInfo info;
-    Bounds3f box;  // of the shape, in object space, where they are needed
+    Bounds3f box;            // of the shape, in object space, where they are needed
+    bool has_inside = true;  // curves have none that a volume could fill
     bool is_holdout = false;
     bool is_shadow_catcher = false;
     float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
@@ -71,6 +72,11 @@ struct PreparedScene {
   [[nodiscard]] const PreparedMaterial& material_of(const SurfacePoint& point) const {
     const std::vector<std::uint32_t>& slots = instances[point.instance].materials;
     return materials[slots[std::min<std::size_t>(point.material_slot, slots.size() - 1)]];
+  }
+  // Of the volume that begins there, or null.
+  [[nodiscard]] const Medium* medium_of(const SurfacePoint& point) const {
+    const std::optional<Medium>& medium = material_of(point).medium;
+    return medium && instances[point.instance].has_inside ? &*medium : nullptr;
   }
 };
 

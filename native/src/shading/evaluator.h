@@ -7,8 +7,10 @@
 #include <string_view>
 
 #include "base/table.h"
+#include "geometry/curves.h"
 #include "geometry/mesh.h"
 #include "geometry/placement.h"
+#include "geometry/point_cloud.h"
 #include "geometry/surface_point.h"
 #include "shading/inputs.h"
 
@@ -38,7 +40,9 @@ class RayProbe {
 
 // What surrounds a point that is shaded. All of it may be missing: then it counts as zero.
 struct ShadingContext {
-  const Mesh* mesh = nullptr;  // none on a sphere
+  const Mesh* mesh = nullptr;          // none on a sphere
+  const Curves* curves = nullptr;      // only on them
+  const PointCloud* points = nullptr;  // the same
   const Placement* placement = nullptr;
   const ObjectInfo* object = nullptr;
   const TransformD* world_to_camera = nullptr;  // z points where the camera looks

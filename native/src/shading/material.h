@@ -396,6 +396,69 @@ struct VolumeShader {
   }
 };
 
+// Blender's Principled Hair node, of Chiang's model. Of curves, or of fibres that run along u.
+enum class HairParametrization : std::uint8_t { melanin, color, absorption };
+template <>
+inline constexpr std::array enum_names<HairParametrization> =
+    std::to_array<std::string_view>({"melanin", "color", "absorption"});
+
+struct PrincipledHairShader {
+  HairParametrization parametrization = HairParametrization::color;
+  ColorInput color{Color{0.017513f, 0.005763f, 0.002059f}};
+  NumberInput melanin = 0.8f, melanin_redness = 1.0f;
+  ColorInput tint{Color(1.0f)};
+  ColorInput absorption{Color{0.245531f, 0.52f, 1.365f}};
+  NumberInput roughness = 0.3f, radial_roughness = 0.3f, coat = 0.0f, ior = 1.55f, offset = 0.0349066f;
+  NumberInput random_color = 0.0f, random_roughness = 0.0f, random = 0.0f;
+
+  [[nodiscard]] bool is_stretched() const { return true; }
+  static constexpr std::string_view kind = "principled_hair";
+  static constexpr auto fields() {
+    using H = PrincipledHairShader;
+    return std::tuple{
+        field("parametrization", &H::parametrization, "which of the next few count: melanin, color or absorption"),
+        field("color", &H::color, "of much hair, seen from afar", within(0, 1)),
+        field("melanin", &H::melanin, "how dark natural hair is", within(0, 1)),
+        field("melanin_redness", &H::melanin_redness, "how red", within(0, 1)),
+        field("tint", &H::tint, "that melanin is dyed with", within(0, 1)),
+        field("absorption", &H::absorption, "per radius of the fibre", at_least(0)),
+        field("roughness", &H::roughness, "along the fibre", within(0, 1)),
+        field("radial_roughness", &H::radial_roughness, "around it", within(0, 1)),
+        field("coat", &H::coat, "how much smoother the first reflection is", within(0, 1)),
+        field("ior", &H::ior, "refractive index of the fibre", at_least(1)),
+        field("offset", &H::offset, "how far the scales are tilted, radians", within(-1.5707964, 1.5707964)),
+        field("random_color", &H::random_color, "how much melanin varies", within(0, 1)),
+        field("random_roughness", &H::random_roughness, "how much both roughnesses vary", within(0, 1)),
+        field("random", &H::random, "what they vary with: from 0 to 1", within(0, 1))};
+  }
+};
+
+// Blender's Hair node.
+enum class HairComponent : std::uint8_t { reflection, transmission };
+template <>
+inline constexpr std::array enum_names<HairComponent> = std::to_array<std::string_view>({"reflection", "transmission"});
+
+struct HairShader {
+  HairComponent component = HairComponent::reflection;
+  ColorInput color;
+  NumberInput offset = 0.0f, roughness_u = 0.1f, roughness_v = 1.0f;
+  NumberInput is_on_curve = 1.0f;
+
+  [[nodiscard]] bool is_stretched() const { return true; }
+  static constexpr std::string_view kind = "hair";
+  static constexpr auto fields() {
+    using H = HairShader;
+    return std::tuple{
+        field("component", &H::component, "reflection or transmission"),
+        field("color", &H::color, "reflectance", within(0, 1)),
+        field("offset", &H::offset, "how far the highlight moves along the fibre, radians",
+              within(-1.5707964, 1.5707964)),
+        field("roughness_u", &H::roughness_u, "along the fibre", within(0, 1)),
+        field("roughness_v", &H::roughness_v, "around it", within(0, 1)),
+        field("on_curve", &H::is_on_curve, "1: fibres run along u; 0: along v, without an offset", within(0, 1))};
+  }
+};
+
 struct MixShader {
   NumberInput factor = 0.5f;
   NodeIndex first = no_node, second = no_node;
@@ -432,7 +495,7 @@ struct AovShader {
 using ShaderNode =
     std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader, TransparentShader,
                  EmissionShader, HoldoutShader, PrincipledShader, VolumeShader, MixShader, AddShader, TranslucentShader,
-                 MetallicShader, SheenShader, ToonShader, SubsurfaceShader, AovShader>;
+                 MetallicShader, SheenShader, ToonShader, SubsurfaceShader, PrincipledHairShader, HairShader, AovShader>;
 
 // A node refers only to nodes before it, so there is no cycle. A Mix or Add input of no_node is black and opaque,
 // as an empty socket is in Blender.

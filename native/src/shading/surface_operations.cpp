@@ -70,6 +70,60 @@ Vec3f interpolate(const MeshAttribute& attribute, const Mesh& mesh, const Surfac
   return value(0) * (1 - share.x - share.y) + value(1) * share.x + value(2) * share.y;
 }
 
+// On curves and points.
+Vec3f interpolate(const MeshAttribute& attribute, const ShadingContext& context, const SurfacePoint& point) {
+  if (context.curves == nullptr) return attribute.values[point.primitive];
+  if (attribute.domain == AttributeDomain::face) return attribute.values[context.curves->curve_of(point.primitive)];
+  const Vec3f from = attribute.values[point.primitive], to = attribute.values[point.primitive + 1];
+  return from + (to - from) * point.barycentrics.x;
+}
+
+// Of the side that the viewer sees, across the strand.
+Vec3f strand_tangent_normal(const Evaluator& in) {
+  if (!in.point.derivatives) return Vec3f(0.0f);
+  const Vec3f along = normalized(in.point.derivatives->dpdu);
+  return normalized(in.wo - along * dot(along, in.wo));
+}
+
+// What Blender's Curves Info and Point Info ask of curves and points; zero elsewhere.
+Vec3f round_shape_value(SurfaceValue value, const Evaluator& in) {
+  const SurfacePoint& point = in.point;
+  if (const Curves* curves = in.context.curves) {
+    const std::uint32_t segment = point.primitive;
+    const float u = point.barycentrics.x;
+    switch (value) {
+      case SurfaceValue::is_strand:
+        return number(1);
+      case SurfaceValue::strand_intercept:
+        return number(curves->intercept_at(segment, u));
+      case SurfaceValue::strand_length:
+        return number(curves->length_of(curves->curve_of(segment)));
+      case SurfaceValue::strand_thickness:
+        return number(2 * curves->radius_at(segment, u));
+      case SurfaceValue::strand_tangent_normal:
+        return strand_tangent_normal(in);
+      case SurfaceValue::strand_random:
+        return number(curves->randoms.empty() ? 0 : curves->randoms[curves->curve_of(segment)]);
+      default:
+        return {};
+    }
+  }
+  if (const PointCloud* cloud = in.context.points) {
+    const Vec3f center = cloud->positions[point.primitive];
+    switch (value) {
+      case SurfaceValue::point_position:
+        return in.context.placement ? Vec3f(in.context.placement->object_to_world.point(Vec3d(center))) : center;
+      case SurfaceValue::point_radius:
+        return number(cloud->radii[point.primitive]);
+      case SurfaceValue::point_random:
+        return number(cloud->randoms.empty() ? 0 : cloud->randoms[point.primitive]);
+      default:
+        return {};
+    }
+  }
+  return {};
+}
+
 Vec3f normal_to_world(Vec3f normal, const Evaluator& in) {
   if (!in.context.placement) return normalized(normal);
   return normalized(Vec3f(in.context.placement->world_to_object.transposed_vector(Vec3d(normal))));
@@ -207,15 +261,21 @@ Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
       return number(static_cast<float>(context.transmission_bounces));
     case SurfaceValue::transparent_depth:
       return number(static_cast<float>(context.transparent_bounces));
+    default:
+      return round_shape_value(node.value, in);
   }
-  return {};
 }
 
 Vec3f eval(const AttributeOperation& node, const Evaluator& in) {
-  const Mesh* mesh = in.context.mesh;
-  if (!mesh) return Vec3f(node.missing);
-  const auto found = std::ranges::find(mesh->attributes, node.name, &MeshAttribute::name);
-  return found == mesh->attributes.end() ? Vec3f(node.missing) : interpolate(*found, *mesh, in.point);
+  const ShadingContext& context = in.context;
+  const auto in_shape = [&](const std::vector<MeshAttribute>& attributes, const auto& shape) {
+    const auto found = std::ranges::find(attributes, node.name, &MeshAttribute::name);
+    return found == attributes.end() ? Vec3f(node.missing) : interpolate(*found, shape, in.point);
+  };
+  if (context.mesh) return in_shape(context.mesh->attributes, *context.mesh);
+  if (context.curves) return in_shape(context.curves->attributes, context);
+  if (context.points) return in_shape(context.points->attributes, context);
+  return Vec3f(node.missing);
 }
 
 Vec3f eval(const FresnelOperation& node, const Evaluator& in) {

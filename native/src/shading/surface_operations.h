@@ -52,7 +52,16 @@ enum class SurfaceValue : std::uint8_t {
   diffuse_depth,
   glossy_depth,
   transmission_depth,
-  transparent_depth
+  transparent_depth,
+  is_strand,
+  strand_intercept,
+  strand_length,
+  strand_thickness,
+  strand_tangent_normal,
+  strand_random,
+  point_position,
+  point_radius,
+  point_random
 };
 template <>
 inline constexpr std::array enum_names<SurfaceValue> = std::to_array<std::string_view>({"position",
@@ -91,7 +100,16 @@ inline constexpr std::array enum_names<SurfaceValue> = std::to_array<std::string
                                                                                         "diffuse_depth",
                                                                                         "glossy_depth",
                                                                                         "transmission_depth",
-                                                                                        "transparent_depth"});
+                                                                                        "transparent_depth",
+                                                                                        "is_strand",
+                                                                                        "strand_intercept",
+                                                                                        "strand_length",
+                                                                                        "strand_thickness",
+                                                                                        "strand_tangent_normal",
+                                                                                        "strand_random",
+                                                                                        "point_position",
+                                                                                        "point_radius",
+                                                                                        "point_random"});
 
 struct SurfaceOperation {
   SurfaceValue value = SurfaceValue::position;
@@ -236,7 +254,7 @@ struct HeightChange {
 
 // Whether a SurfacePoint must have its derivatives for this.
 [[nodiscard]] inline bool needs_derivatives(const SurfaceOperation& node) {
-  return node.value == SurfaceValue::tangent;
+  return node.value == SurfaceValue::tangent || node.value == SurfaceValue::strand_tangent_normal;
 }
 [[nodiscard]] inline bool needs_derivatives(const NormalMapOperation& node) {
   return node.space == NormalMapSpace::tangent && !node.tangent.is_varying();

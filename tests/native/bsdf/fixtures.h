@@ -75,6 +75,14 @@ inline std::vector<NamedMaterial> all_materials() {
     node.thin_film_thickness = film;
     return make_material(node);
   };
+  const auto principled_hair = [](float roughness, float radial_roughness, float coat) {
+    PrincipledHairShader node;
+    node.color = Color{0.6f, 0.3f, 0.1f};
+    node.roughness = roughness;
+    node.radial_roughness = radial_roughness;
+    node.coat = coat;
+    return make_material(node);
+  };
   const auto filmed_glass = [] {
     // Light that bounces between facets is added as that of glass without a film.
     GlassShader node{.roughness = 0.4f, .distribution = FacetDistribution::ggx};
@@ -138,6 +146,10 @@ inline std::vector<NamedMaterial> all_materials() {
       {"glass, filmed", filmed_glass()},
       {"principled, layered", layered(0, 0)},
       {"principled, layered and filmed", layered(0.5f, 350)},
+      {"hair, reflection", make_material(HairShader{HairComponent::reflection, Color(0.9f), 0.2f, 0.4f, 0.5f})},
+      {"hair, transmission", make_material(HairShader{HairComponent::transmission, Color(0.9f), 0.1f, 0.3f, 0.6f})},
+      {"principled hair, brown", principled_hair(0.3f, 0.3f, 0)},
+      {"principled hair, coated", principled_hair(0.6f, 0.5f, 0.4f)},
       {"diffuse and mirror", make_mix(0.4f, DiffuseShader{Color(0.5f), true}, GlossyShader{Color(0.9f), 0})},
       {"diffuse and glass",
        make_mix(0.7f, DiffuseShader{Color(0.5f), true}, GlassShader{Color(1.0f), Color(1.0f), 1.5f, 0.5f})},

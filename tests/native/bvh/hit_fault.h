@@ -52,6 +52,10 @@ inline DistanceAndBorder distance_and_border(const std::vector<Shape>& shapes,
     PreciseRay copy = local;
     return {intersect_sphere(copy, *sphere).value_or(-1), 1, 0};
   }
+  if (const auto* cloud = std::get_if<PointCloud>(&shapes[placed.shape])) {
+    PreciseRay copy = local;
+    return {intersect_sphere(copy, sphere_of(*cloud, primitive)).value_or(-1), 1, 0};
+  }
   const Mesh& mesh = std::get<Mesh>(shapes[placed.shape]);
   const auto corner = [&](int i) { return mesh.position_at(primitive, i, ray.time); };
   const Vec3f p0 = corner(0), p1 = corner(1), p2 = corner(2);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/overloaded.h"
+#include "bvh/curve_reference.h"
 #include "bvh/tracer.h"
 #include "geometry/motion.h"
 #include "geometry/sphere.h"
@@ -100,6 +101,12 @@ inline std::vector<NamedShape> shapes_of_every_kind(Random& rng) {
   shapes.push_back({"three triangles", soup(rng, 3, 1)});
   shapes.push_back({"empty mesh", Mesh{}});
   shapes.push_back({"sphere", Sphere{{0.2f, -0.1f, 0.3f}, 0.5f}});
+  PointCloud cloud;
+  for (int i = 0; i < 200; ++i) {
+    cloud.positions.push_back(random_point(rng));
+    cloud.radii.push_back(uniform(rng, 0, 0.2f));
+  }
+  shapes.push_back({"point cloud", cloud});
   return shapes;
 }
 
@@ -190,7 +197,20 @@ inline Hit brute_force(const std::vector<Shape>& shapes, const std::vector<Trace
         consider(*t, uv.x, uv.y, i, 0);
       }
     };
-    std::visit(Overloaded{test_mesh, test_sphere}, shapes[instances[i].shape]);
+    const auto test_points = [&](const PointCloud& cloud) {
+      for (std::uint32_t point = 0; point < cloud.positions.size(); ++point) {
+        PreciseRay copy = local;
+        if (!(cloud.radii[point] > 0)) continue;
+        const auto t = intersect_sphere(copy, sphere_of(cloud, point));
+        if (!t) continue;
+        const Vec2d uv = sphere_uv(local.origin + local.direction * *t - Vec3d(cloud.positions[point]));
+        consider(*t, uv.x, uv.y, i, point);
+      }
+    };
+    const auto test_curves = [&](const Curves& curves) {
+      if (const auto hit = reference_hit(curves, local)) consider(hit->t, hit->u, 0, i, hit->segment);
+    };
+    std::visit(Overloaded{test_mesh, test_sphere, test_points, test_curves}, shapes[instances[i].shape]);
   }
   return best;
 }
