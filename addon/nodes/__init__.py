@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from .images import Textures
+from .images import Surroundings, Textures
 from .mesh_data import MeshData, Part, Source
 from .translate import Emission, emission_of, translate_surface
 from .world import translate_world, translate_world_volume
@@ -13,6 +13,7 @@ __all__ = [
     "MeshData",
     "Part",
     "Source",
+    "Surroundings",
     "Textures",
     "emission_of",
     "translate_surface",

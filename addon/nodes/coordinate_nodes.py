@@ -170,9 +170,27 @@ def _parts(of: Operands, source: Source, name: str, output: str) -> Value:
 @operation("ShaderNodeAttribute")
 def attribute(of: Operands, output: str) -> Value | None:
     """An attribute of the mesh by name."""
+    if of.node.attribute_type == "VIEW_LAYER":
+        return _of_view_layer(of, output)
     if of.node.attribute_type != "GEOMETRY":
         return None
     return _parts(of, Source.ATTRIBUTE, of.node.attribute_name, output)
+
+
+def _of_view_layer(of: Operands, output: str) -> Value | None:
+    """A property of the view layer, the scene or the world, the same for all objects; 0 where there is none."""
+    found = of.view.translation.textures.attribute(of.node.attribute_name)
+    numbers = (0.0, 0.0, 0.0, 0.0) if found is None else found
+    if isinstance(numbers, float):
+        numbers = (numbers, numbers, numbers)
+    red, green, blue, *alpha = numbers
+    values = {
+        "Color": Value("color", (red, green, blue)),
+        "Vector": Value("vector", (red, green, blue)),
+        "Fac": Value("number", (red + green + blue) / 3),
+        "Alpha": Value("number", alpha[0] if alpha else 1.0),
+    }
+    return values.get(output)
 
 
 @operation("ShaderNodeVertexColor")
@@ -288,6 +306,27 @@ def light_path(of: Operands, output: str) -> Value | None:
     if output == "Portal Depth":
         return Value("number", 0.0)  # Ray Portal BSDFs are drawn, and reported, as something else
     return surface(of, "number", _LIGHT_PATH[output]) if output in _LIGHT_PATH else None
+
+
+@operation("ShaderNodeLightFalloff")
+def light_falloff(of: Operands, output: str) -> Value | None:
+    """A strength that grows with the ray's length, which makes light fade less, and ceases to near by."""
+    if of.view.translation.is_world:
+        return None
+
+    def number(operation: str, a: Any, b: Any) -> Any:
+        return of.add("number", basicrt.MathOperation(operation=operation, a=a, b=b)).data
+
+    strength, smooth = of.number("Strength"), of.number("Smooth")
+    power = {"Quadratic": 0, "Linear": 1, "Constant": 2}[output]
+    if isinstance(smooth, float) and smooth <= 0.0 and power == 0:
+        return Value("number", strength)
+    length = surface(of, "number", "ray_length").data
+    for _ in range(power):
+        strength = number("multiply", strength, length)
+    squared = number("multiply", length, length)
+    limit = number("add", squared, number("maximum", smooth, 0.0))
+    return Value("number", number("multiply", strength, number("divide", squared, limit)))
 
 
 def _normal(of: Operands) -> Any:

@@ -15,7 +15,7 @@ import basicrt
 from .. import compat
 from ..report import Report
 from .graph import Groups, Place, find_socket, trace
-from .images import Textures
+from .images import Textures, is_tiled
 from .mesh_data import MeshData
 from .operations import OPERATIONS, Value, as_vector, output_value, raw_value, value_at
 from .operations import as_number as number_of
@@ -284,7 +284,7 @@ class NodeView:
 def is_over_uv(view: NodeView) -> bool:
     """Whether a texture is looked up by uv coordinates, moved by constants at most."""
     node: Any = view.node
-    if getattr(node, "projection", "FLAT") != "FLAT":
+    if getattr(node, "projection", "FLAT") != "FLAT" or is_tiled(node):
         return False
     socket = find_socket(node.inputs, "Vector")
     source = trace(Place(socket, view.groups)) if socket else None

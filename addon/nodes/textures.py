@@ -11,7 +11,7 @@ import basicrt
 
 from .coordinate_nodes import surface, texture_vector
 from .coordinates import Coordinates, coordinates_at
-from .images import MISSING, ConvertedImage
+from .images import MISSING, ConvertedImage, is_tiled
 from .mesh_data import MeshData, Source
 from .node_view import NodeView, texture
 from .operations import Operands, Value, operation
@@ -25,7 +25,7 @@ def image_texture(view: NodeView) -> int:
     """A picture over the mesh's UV map."""
     node: Any = view.node
     store = view.translation.textures
-    converted = store.image(node.image, view.warn)
+    converted = store.image(node.image, node.image_user, view.warn)
     if converted is None:
         return store.add("missing", lambda: basicrt.ConstantTexture(color=MISSING))
     return _image_texture(view, converted, _uv_transform(view))
@@ -60,7 +60,7 @@ def _uv_transform(view: NodeView) -> np.ndarray:
 def environment_lookup(of: Operands, _output: str) -> Value:
     """A picture over directions."""
     store = of.view.translation.textures
-    converted = store.image(of.node.image, of.view.warn)
+    converted = store.image(of.node.image, of.node.image_user, of.view.warn)
     if converted is None:
         return Value("color", MISSING)
     interpolation = INTERPOLATIONS[of.node.interpolation]
@@ -80,16 +80,56 @@ def environment_lookup(of: Operands, _output: str) -> Value:
 @operation("ShaderNodeTexImage")
 def image_lookup(of: Operands, output: str) -> Value:
     """A picture over any coordinates."""
+    if is_tiled(of.node):
+        return _tiled_lookup(of, output)
     store = of.view.translation.textures
-    converted = store.image(of.node.image, of.view.warn)
+    converted = store.image(of.node.image, of.node.image_user, of.view.warn)
     if converted is None:
         return Value("color", MISSING) if output == "Color" else Value("number", 1.0)
-    texture = _image_texture(of.view, converted, np.eye(4, dtype=np.float32))
+    return _lookup(of, converted, texture_vector(of, "uv"), output)
+
+
+def _lookup(of: Operands, converted: ConvertedImage, vector: Any, output: str) -> Value:
     made = basicrt.TextureOperation(
-        texture=texture,
-        vector=texture_vector(of, "uv"),
+        texture=_image_texture(of.view, converted, np.eye(4, dtype=np.float32)),
+        vector=vector,
         alpha=output == "Alpha",
         projection=of.node.projection.lower(),
         blend=of.node.projection_blend,
     )
     return of.add("color" if output == "Color" else "number", made)
+
+
+def _tiled_lookup(of: Operands, output: str) -> Value:
+    """The picture of the tile that the coordinates are in; magenta where there is none."""
+
+    def number(operation: str, a: Any, b: Any = 0.0, c: Any = 0.0) -> Any:
+        return of.add("number", basicrt.MathOperation(operation=operation, a=a, b=b, c=c)).data
+
+    if of.node.projection != "FLAT":
+        of.view.warn(f"{of.node.projection} projection of UDIM tiles is not supported: drawn flat")
+    vector = texture_vector(of, "uv")
+    x, y = (
+        of.add("number", basicrt.ComponentOperation(value=vector, component=name)).data
+        for name in ("x", "y")
+    )
+    across, up = number("trunc", x), number("trunc", y)
+    inside = of.add(
+        "vector",
+        basicrt.CombineOperation(x=number("subtract", x, across), y=number("subtract", y, up)),
+    ).data
+    is_color = output == "Color"
+    kind = "color" if is_color else "number"
+    result = Value(kind, MISSING if is_color else (1.0, 1.0, 1.0))
+    tiles = of.view.translation.textures.tiles(of.node.image, of.view.warn)
+    for tile, converted in tiles.items():
+        if converted is None:
+            continue
+        here = number(
+            "multiply",
+            number("compare", across, float((tile - 1001) % 10), 0.5),
+            number("compare", up, float((tile - 1001) // 10), 0.5),
+        )
+        looked_up = _lookup(of, converted, inside, output).data
+        result = of.add(kind, basicrt.MixOperation(factor=here, a=result.data, b=looked_up))
+    return result

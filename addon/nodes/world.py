@@ -251,7 +251,7 @@ def _direction_matrix(view: NodeView) -> Any:
 def _image_layer(view: NodeView, factor: float, seen_by: str) -> basicrt.EnvironmentLayer:
     """An Environment Texture."""
     node: Any = view.node
-    converted = view.translation.textures.image(node.image, view.warn)
+    converted = view.translation.textures.image(node.image, node.image_user, view.warn)
     if converted is None:
         return _plain_layer(MISSING, factor, seen_by)
     return basicrt.EnvironmentLayer(

@@ -15,7 +15,7 @@ import basicrt
 from .. import compat
 from ..export import aovs, camera, light_groups, motion, settings, world
 from ..export.identity import uid
-from ..nodes import Textures
+from ..nodes import Surroundings, Textures
 from ..report import ExportError, Report
 from .changes import Changes, history
 from .instances import Filter, Instances
@@ -133,6 +133,8 @@ class SceneSync:
         basis = _basis(depsgraph, view_camera)
         changes.is_everything |= basis != self._basis
         changes.is_everything |= not changes.objects.isdisjoint(self._textures.objects)
+        surroundings = _surroundings(depsgraph)
+        changes.is_everything |= self._textures.would_differ(surroundings)
         layout = tuple(_layout(depsgraph))
         is_old_layout, self._layout = layout == self._layout, layout
         if changes.is_everything:
@@ -143,7 +145,7 @@ class SceneSync:
                 entries.clear()
             scene.world_volume = None
             changes.has_world = True
-            self._textures = Textures(scene)
+            self._textures = Textures(scene, surroundings)
             b_original_layer: Any = depsgraph.view_layer
             self._textures.aovs = aovs.numbers(b_original_layer, self._report)
             self._instances = Instances(scene, names, self._report, self._textures, self._movement)
@@ -200,6 +202,12 @@ class SceneSync:
             names.append("")
         scene.materials[index], names[index] = volume, f'world "{b_world.name}"'
         scene.world_volume = index
+
+
+def _surroundings(depsgraph: bpy.types.Depsgraph) -> Surroundings:
+    b_scene: Any = depsgraph.scene_eval
+    owners = (depsgraph.view_layer_eval, b_scene, b_scene.world)
+    return Surroundings(b_scene.frame_current, tuple(owner for owner in owners if owner))
 
 
 def _basis(depsgraph: bpy.types.Depsgraph, view_camera: camera.Camera) -> Any:

@@ -316,6 +316,59 @@ def paths_told_apart(scene: bpy.types.Scene) -> None:
 
 
 @family
+def glowing_pictures(scene: bpy.types.Scene) -> None:
+    """Nothing shines but surfaces that do so here and there: a screen, a ball with cracks, a coated sign."""
+    corner(scene, _embers())
+    screen = Graph("Screen")
+    image = bpy.data.images.new("Windows", 16, 8, float_buffer=True)
+    image.colorspace_settings.name = "Non-Color"
+    pixels = [0.0] * (16 * 8 * 4)
+    numbers = random.Random(11)
+    for index in range(16 * 8):
+        lit = numbers.random() < 0.2
+        color = [numbers.uniform(2.0, 9.0) if lit else 0.02 for _ in range(3)]
+        pixels[4 * index : 4 * index + 4] = [*color, 1.0]
+    image.pixels.foreach_set(pixels)
+    image.pack()
+    texture = screen.node("TexImage", {"image": image, "interpolation": "Closest"})
+    stage.rectangle(
+        "Screen",
+        [(-2.5, -1.5, 0.2), (-1.5, 0.5, 0.2), (-1.5, 0.5, 1.8), (-2.5, -1.5, 1.8)],
+        screen.finish(screen.node("Emission", Color=texture.outputs["Color"])),
+    )
+    sign = Graph("Sign")
+    stripes = sign.node("TexWave", Vector=sign.coordinates("Object"), Scale=2.0)
+    stage.rectangle(
+        "Sign",
+        [(0.5, 1.5, 2.2), (2.5, 1.5, 2.2), (2.5, 1.5, 3.0), (0.5, 1.5, 3.0)],
+        sign.finish(
+            sign.node(
+                "BsdfPrincipled",
+                Emission_Color=stripes.outputs["Color"],
+                Emission_Strength=3.0,
+                Coat_Weight=1.0,
+            )
+        ),
+    )
+
+
+def _embers() -> bpy.types.Material:
+    graph = Graph("Embers")
+    cells = graph.node(
+        "TexVoronoi", {"feature": "DISTANCE_TO_EDGE"}, Vector=graph.coordinates("Object"), Scale=3.0
+    )
+    glow = graph.ramp(cells.outputs["Distance"], (0.02, (1.0, 0.3, 0.05)), (0.08, (0.0, 0.0, 0.0)))
+    return graph.finish(
+        graph.node(
+            "BsdfPrincipled",
+            Base_Color=(0.05, 0.05, 0.05),
+            Emission_Color=glow,
+            Emission_Strength=8.0,
+        )
+    )
+
+
+@family
 def nested_groups(scene: bpy.types.Scene) -> None:
     """Two hundred nodes, most of them in groups within groups."""
     group = _layer_group()

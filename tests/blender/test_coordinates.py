@@ -225,10 +225,36 @@ def test_hair_info_of_a_surface(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("output", ["Color", "Vector", "Fac", "Alpha"])
+@pytest.mark.parametrize("name", ["tint", "wind", "cycle", "frame_current", "render.fps", "none"])
+def test_attributes_of_the_view_layer(name: str, output: str, tmp_path: Path) -> None:
+    tree, emission, _made = plane()
+    scene = bpy.context.scene
+    bpy.context.view_layer["tint"], scene["tint"] = (0.1, 0.4, 0.7, 0.3), 5.0
+    scene["wind"] = 0.25
+    scene.world = scene.world or bpy.data.worlds.new("World")
+    scene.world["cycle"] = 3
+    node = tree.nodes.new("ShaderNodeAttribute")
+    node.attribute_type, node.attribute_name = "VIEW_LAYER", name
+    ours, theirs = pictures(tree, output_of(node, output), emission, tmp_path, 0.2)
+    assert (abs(theirs[..., :3] - 0.5).max() > 1e-3) == (name != "none")
+    assert np.allclose(ours, theirs, rtol=1e-3, atol=1e-4)
+
+
+@pytest.mark.parametrize("smooth", [0.0, 1.5])
+@pytest.mark.parametrize("output", ["Quadratic", "Linear", "Constant"])
+def test_light_falloff_of_a_surface(output: str, smooth: float, tmp_path: Path) -> None:
+    tree, emission, _made = plane()
+    bpy.context.scene.camera.data.clip_start = 1e-5  # where Cycles' rays begin
+    node = add_node(tree, "ShaderNodeLightFalloff", Strength=0.4, Smooth=smooth)
+    ours, theirs = pictures(tree, node.outputs[output], emission, tmp_path, 0.2)
+    assert theirs[..., :3].min() > 0
+    assert np.allclose(ours, theirs, rtol=2e-3, atol=1e-4)
+
+
 UNSUPPORTED = [
     ("ShaderNodeBevel", "Normal"),
     ("ShaderNodeParticleInfo", "Age"),
-    ("ShaderNodeLightFalloff", "Linear"),
 ]
 
 

@@ -347,3 +347,106 @@ def test_only_the_scene_s_own_textures_are_exported() -> None:
     textured_material(new_image(RAMP, name="Unused"))
     add_camera()
     assert len(export().textures) == 1
+
+
+# ---- images of many pictures ---------------------------------------------------------------------
+
+
+def save(path: Path, seed: int, is_opaque: bool = True) -> None:
+    """A small picture of random colours."""
+    picture = np.random.default_rng(seed).random((4, 4, 4))
+    if is_opaque:
+        picture[..., 3] = 1
+    image = new_image(picture, "sRGB", is_float=False)
+    image.filepath_raw = str(path)
+    image.file_format = "PNG"
+    image.save()
+
+
+def sequence(folder: Path, numbers: range) -> Any:
+    for number in numbers:
+        save(folder / f"drop 2.{number:03d}.png", number)
+    image = bpy.data.images.load(str(folder / f"drop 2.{numbers[0]:03d}.png"))
+    image.source = "SEQUENCE"
+    return image
+
+
+@pytest.mark.parametrize("is_cyclic", [False, True])
+@pytest.mark.parametrize("frame", [-3, 10, 12, 17])
+def test_a_sequence_shows_the_frame_that_cycles_shows(
+    frame: int, is_cyclic: bool, tmp_path: Path
+) -> None:
+    material, texture = textured_material(sequence(tmp_path, range(3, 8)))
+    user = texture.image_user
+    user.frame_start, user.frame_duration, user.frame_offset = 9, 4, 3
+    user.use_cyclic = is_cyclic
+    user.use_auto_refresh = True
+    add_strip(material)
+    bpy.context.scene.frame_set(frame)
+    assert_same_as_cycles(tmp_path)
+
+
+def test_a_sequence_follows_the_scene(tmp_path: Path) -> None:
+    material, texture = textured_material(sequence(tmp_path, range(1, 4)))
+    texture.image_user.frame_duration = 3
+    add_strip(material)
+    add_camera()
+    pictures = []
+    for frame in (1, 2):
+        bpy.context.scene.frame_set(frame)
+        (made,) = export().textures
+        pictures.append(made.image.pixels)
+    assert not np.array_equal(*pictures)
+
+
+def test_a_frame_that_is_not_there_is_told_of(tmp_path: Path) -> None:
+    material, texture = textured_material(sequence(tmp_path, range(1, 2)))
+    texture.image_user.frame_duration = 5
+    texture.image_user.frame_offset = 6
+    translated = Textures(basicrt.Scene())
+    report = Report()
+    translate_surface(material, report, translated)
+    (warning,) = report.warnings
+    assert "drop 2.007.png can't be read: drawn magenta" in warning
+
+
+def tiled_image(folder: Path, *numbers: int, is_opaque: bool = True) -> Any:
+    for number in numbers:
+        save(folder / f"skin.{number}.png", number, is_opaque)
+    image = bpy.data.images.load(str(folder / f"skin.{numbers[0]}.png"))
+    image.source = "TILED"
+    image.filepath_raw = str(folder / "skin.<UDIM>.png")
+    image.reload()
+    for number in numbers:
+        if number not in [tile.number for tile in image.tiles]:
+            image.tiles.new(number)
+    return image
+
+
+@pytest.mark.parametrize("is_alpha", [False, True])
+def test_tiles_are_as_in_cycles(is_alpha: bool, tmp_path: Path) -> None:
+    """The strip goes over tiles that are there and tiles that are not."""
+    material, texture = textured_material(
+        tiled_image(tmp_path, 1001, 1002, 1011, 1013, is_opaque=not is_alpha)
+    )
+    tree = material.node_tree
+    mapping = tree.nodes.new("ShaderNodeMapping")
+    mapping.inputs["Scale"].default_value = (3.7, 2.4, 1)
+    mapping.inputs["Location"].default_value = (-0.3, -0.2, 0)
+    coordinates = tree.nodes.new("ShaderNodeTexCoord")
+    tree.links.new(coordinates.outputs["UV"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs[0], texture.inputs["Vector"])
+    if is_alpha:
+        shader = next(n for n in tree.nodes if n.bl_idname == "ShaderNodeEmission")
+        tree.links.new(texture.outputs["Alpha"], shader.inputs["Color"])
+    texture.interpolation = "Closest"
+    add_strip(material)
+    assert_same_as_cycles(tmp_path)
+
+
+def test_packed_tiles_are_told_of(tmp_path: Path) -> None:
+    image = tiled_image(tmp_path, 1001, 1002)
+    image.pack()
+    report = Report()
+    translate_surface(textured_material(image)[0], report, Textures(basicrt.Scene()))
+    assert any("packed or unsaved UDIM tiles are not supported" in text for text in report.warnings)

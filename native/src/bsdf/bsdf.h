@@ -271,9 +271,11 @@ struct SurfaceShading {
 [[nodiscard]] bool needs_derivatives(const Material& material);
 
 // What the front (where the normal points) or the back of a surface emits, in every direction alike. Black where it is
-// not the same at every point: such light is found by rays alone.
+// not the same at every point.
 enum class SurfaceSide : std::uint8_t { front, back };
 [[nodiscard]] Color emitted_radiance(const Material& material, SurfaceSide side);
+// Whether a side shines, but not the same everywhere and in every direction: emitted_radiance() doesn't say how much.
+[[nodiscard]] bool has_varying_emission(const Material& material, SurfaceSide side);
 [[nodiscard]] bool is_emissive(const Material& material);
 
 // The most lobes that the material can make anywhere, and at least one for each way through its graphs: what

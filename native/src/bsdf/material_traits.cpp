@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What can be said of a material without shading it: transparency, emission, how many lobes it takes.
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "base/overloaded.h"
@@ -71,7 +72,10 @@ bool needs_derivatives(const Material& material) {
   return result;
 }
 
-Color emitted_radiance(const Material& material, SurfaceSide side) {
+namespace {
+
+// The radiance where that is the same everywhere, else nothing.
+std::optional<Color> uniform_emission(const Material& material, SurfaceSide side) {
   Color sum(0.0f);
   bool varies = false, shines = false;
   const auto add = [&](const ColorInput& radiance, const NumberInput& strength, float weight) {
@@ -99,12 +103,21 @@ Color emitted_radiance(const Material& material, SurfaceSide side) {
     return input.is_varying() ? 0.5f : input.constant;
   };
   for_each_leaf(material, material.surface, 1, share_of, leaf);
-  return varies && shines ? Color(0.0f) : sum;
+  return varies && shines ? std::nullopt : std::optional(sum);
 }
 
+}  // namespace
+
+Color emitted_radiance(const Material& material, SurfaceSide side) {
+  return uniform_emission(material, side).value_or(Color(0.0f));
+}
+
+bool has_varying_emission(const Material& material, SurfaceSide side) { return !uniform_emission(material, side); }
+
 bool is_emissive(const Material& material) {
-  return !is_black(emitted_radiance(material, SurfaceSide::front)) ||
-         !is_black(emitted_radiance(material, SurfaceSide::back));
+  constexpr Color black(0.0f);
+  return uniform_emission(material, SurfaceSide::front) != black ||
+         uniform_emission(material, SurfaceSide::back) != black;
 }
 
 namespace {

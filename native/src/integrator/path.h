@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bsdf/bsdf.h"
@@ -91,6 +92,8 @@ class PathIntegrator final : public Integrator {
   void cut_out(const Path& path, const Ray& ray, const SurfacePoint& point, SurfaceShading& shading,
                PixelSample& sample) const;
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
+  // A light's sample towards the point, with what varies on it looked up.
+  [[nodiscard]] std::optional<LightSample> pick_light(Path& path, const LitPoint& point, float time) const;
   [[nodiscard]] float terminator_share(const SurfacePoint& point, Vec3f wi) const;
   [[nodiscard]] BsdfValue eval_towards(const LightSample& light, const SurfacePoint& point, Vec3f wo,
                                        const Bsdf& bsdf) const;

@@ -236,8 +236,7 @@ void PathIntegrator::sample_lights_in_media(Path& path, const Ray& ray, const Me
   const auto [distance, place_pdf] = pick_place(scene_, path.sampler, ray, collisions, length);
   const Vec3f position = ray.at(ray.t_min + distance);
 
-  const float choice = path.sampler.next_1d();
-  const std::optional<LightSample> light = scene_.lights.sample(position, choice, path.sampler.next_2d(), ray.time);
+  const std::optional<LightSample> light = pick_light(path, position, ray.time);
   if (!light || (light->kinds & ray_volume) == 0 || path.bounces.total > light->max_bounces) return;
   const BsdfValue phase = PhaseMixture(media_[path.media], ray.direction).eval(light->wi);
   const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, phase.pdf);

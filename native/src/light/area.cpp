@@ -15,42 +15,12 @@ constexpr double smallest_solid_angle = 1e-6;
 constexpr float narrowest_spread = 0.0174533f;
 constexpr float widest_spread = 3.14159f;
 
-// The lamp in world space.
-struct Plate {
-  Vec3d center, edge_x, edge_y;
-  Vec3d normal;  // of the side that shines, unit length
-  double area;
-};
-
-Plate plate_of(const AreaLight& light) {
-  const TransformD to_world(light.to_world);
-  const Vec3d edge_x = to_world.column(0), edge_y = to_world.column(1);
-  const Vec3d across = cross(edge_x, edge_y);
-  const double parallelogram = length(across);
-  // Local -z may lie on either side where the transform mirrors.
-  const double side = dot(across, to_world.column(2)) < 0 ? 1 : -1;
-  return {.center = to_world.column(3),
-          .edge_x = edge_x,
-          .edge_y = edge_y,
-          .normal = across * (side / parallelogram),
-          .area = light.is_ellipse ? parallelogram * (std::numbers::pi / 4) : parallelogram};
-}
-
-double half_spread(const AreaLight& light) { return std::max(light.spread, narrowest_spread) / 2.0; }
-bool has_full_spread(const AreaLight& light) { return light.spread >= widest_spread; }
-
 // Radiance at an angle to the normal, over that of full spread: the same power in all. Falls with the tangent to
 // nothing at half the spread, as Blender's lamps do.
-double spread_share(const AreaLight& light, double cosine) {
-  if (has_full_spread(light)) return 1;
-  const double a = half_spread(light);
+double spread_share(const AreaLamp& light, double cosine) {
+  if (light.has_full_spread) return 1;
   const double tangent = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine;
-  return std::max(0.0, 1 - tangent / std::tan(a)) / (1 - a / std::tan(a));
-}
-
-bool is_perpendicular(const Plate& plate) {
-  const double cosine = dot(plate.edge_x, plate.edge_y);
-  return cosine * cosine <= 1e-12 * length_squared(plate.edge_x) * length_squared(plate.edge_y);
+  return std::max(0.0, 1 - tangent / light.tan_half_spread) * light.spread_scale;
 }
 
 // The part of a rectangle that can shine on a position, in coordinates along its edges around the position's foot on
@@ -62,12 +32,12 @@ struct Window {
   [[nodiscard]] double area() const { return (max.x - min.x) * (max.y - min.y); }
 };
 
-Window window_of(const AreaLight& light, const Plate& plate, Vec3d from_center, double height) {
-  const double width = length(plate.edge_x), depth = length(plate.edge_y);
-  const Vec2d foot{dot(from_center, plate.edge_x) / width, dot(from_center, plate.edge_y) / depth};
-  Window window{{-width / 2 - foot.x, -depth / 2 - foot.y}, {width / 2 - foot.x, depth / 2 - foot.y}, height};
-  if (!has_full_spread(light)) {
-    const double reach = height * std::tan(half_spread(light));
+Window window_of(const AreaLamp& light, Vec3d from_center, double height) {
+  const Vec2d foot{dot(from_center, light.axis_x), dot(from_center, light.axis_y)};
+  const Vec2d half{light.width / 2, light.depth / 2};
+  Window window{Vec2d{} - half - foot, half - foot, height};
+  if (!light.has_full_spread) {
+    const double reach = height * light.tan_half_spread;
     window.min = {std::max(window.min.x, -reach), std::max(window.min.y, -reach)};
     window.max = {std::min(window.max.x, reach), std::min(window.max.y, reach)};
   }
@@ -84,39 +54,59 @@ double over_solid_angle(const PlaceDensity& density, double distance_squared, do
 }
 
 // Uniform by area, relative to the centre.
-Vec3d sample_plate(const AreaLight& light, const Plate& plate, Vec2f u) {
+Vec3d sample_plate(const AreaLamp& light, Vec2f u) {
   const Vec2d local = light.is_ellipse ? Vec2d(sample_disk(u)) * 0.5 : Vec2d{u.x - 0.5, u.y - 0.5};
-  return plate.edge_x * local.x + plate.edge_y * local.y;
+  return light.edge_x * local.x + light.edge_y * local.y;
 }
 
-bool is_on_plate(const AreaLight& light, const Plate& plate, Vec3d from_center) {
-  const Vec3d across = cross(plate.edge_x, plate.edge_y);
-  const double scale = 1 / length_squared(across);
-  const double x = dot(cross(from_center, plate.edge_y), across) * scale;
-  const double y = dot(cross(plate.edge_x, from_center), across) * scale;
+bool is_on_plate(const AreaLamp& light, Vec3d from_center) {
+  const double x = dot(from_center, light.dual_x), y = dot(from_center, light.dual_y);
   return light.is_ellipse ? x * x + y * y <= 0.25 : std::abs(x) <= 0.5 && std::abs(y) <= 0.5;
 }
 
-double cone_sin_squared(const AreaLight& light) {
-  if (has_full_spread(light)) return 1;
-  const double s = std::sin(half_spread(light));
+double cone_sin_squared(const AreaLamp& light) {
+  if (light.has_full_spread) return 1;
+  const double s = std::sin(light.half_spread);
   return s * s;
 }
 
 }  // namespace
 
-bool is_delta_lamp(const AreaLight&) { return false; }
+AreaLamp::AreaLamp(const AreaLight& light) : AreaLight(light) {
+  const TransformD transform(light.to_world);
+  center = transform.column(3);
+  edge_x = transform.column(0);
+  edge_y = transform.column(1);
+  width = length(edge_x);
+  depth = length(edge_y);
+  axis_x = edge_x / width;
+  axis_y = edge_y / depth;
+  const Vec3d across = cross(edge_x, edge_y);
+  const double parallelogram = length(across);
+  // Local -z may lie on either side where the transform mirrors.
+  normal = across * ((dot(across, transform.column(2)) < 0 ? 1 : -1) / parallelogram);
+  dual_x = cross(edge_y, across) / (parallelogram * parallelogram);
+  dual_y = cross(across, edge_x) / (parallelogram * parallelogram);
+  area = is_ellipse ? parallelogram * (std::numbers::pi / 4) : parallelogram;
+  const double cosine = dot(axis_x, axis_y);
+  is_rectangle = !is_ellipse && cosine * cosine <= 1e-12;
+  has_full_spread = spread >= widest_spread;
+  half_spread = std::max(spread, narrowest_spread) / 2.0;
+  tan_half_spread = std::tan(half_spread);
+  spread_scale = 1 / (1 - half_spread / tan_half_spread);
+}
 
-std::optional<LightSample> sample_lamp(const AreaLight& light, Vec3f position, Vec2f u) {
-  const Plate plate = plate_of(light);
-  const Vec3d from_center = Vec3d(position) - plate.center;
-  const double height = dot(from_center, plate.normal);
+bool is_delta_lamp(const AreaLamp&) { return false; }
+
+std::optional<LightSample> sample_lamp(const AreaLamp& light, Vec3f position, Vec2f u) {
+  const Vec3d from_center = Vec3d(position) - light.center;
+  const double height = dot(from_center, light.normal);
   if (!(height > 0)) return std::nullopt;
 
   Vec3d to_place;
   PlaceDensity density;
-  if (!light.is_ellipse && is_perpendicular(plate)) {
-    const Window window = window_of(light, plate, from_center, height);
+  if (light.is_rectangle) {
+    const Window window = window_of(light, from_center, height);
     if (window.is_empty()) return std::nullopt;
     const SphericalRectangle rectangle(window.min, window.max, window.height);
     Vec2d place;
@@ -127,14 +117,14 @@ std::optional<LightSample> sample_lamp(const AreaLight& light, Vec3f position, V
       place = {lerp(window.min.x, window.max.x, double(u.x)), lerp(window.min.y, window.max.y, double(u.y))};
       density.per_area = 1 / window.area();
     }
-    to_place = normalize(plate.edge_x) * place.x + normalize(plate.edge_y) * place.y - plate.normal * height;
+    to_place = light.axis_x * place.x + light.axis_y * place.y - light.normal * height;
   } else {
-    to_place = sample_plate(light, plate, u) - from_center;
-    density.per_area = 1 / plate.area;
+    to_place = sample_plate(light, u) - from_center;
+    density.per_area = 1 / light.area;
   }
 
   const double distance_squared = length_squared(to_place), distance = std::sqrt(distance_squared);
-  const double cosine = -dot(to_place, plate.normal) / distance;
+  const double cosine = -dot(to_place, light.normal) / distance;
   if (!(cosine > 0)) return std::nullopt;
   return LightSample{.wi = Vec3f(to_place / distance),
                      .distance = float(distance),
@@ -142,20 +132,19 @@ std::optional<LightSample> sample_lamp(const AreaLight& light, Vec3f position, V
                      .pdf = float(over_solid_angle(density, distance_squared, cosine))};
 }
 
-std::optional<LightHit> intersect_lamp(const AreaLight& light, const Ray& ray) {
-  const Plate plate = plate_of(light);
-  const Vec3d from_center = Vec3d(ray.origin) - plate.center, direction(ray.direction);
-  const double height = dot(from_center, plate.normal), approach = -dot(direction, plate.normal);
+std::optional<LightHit> intersect_lamp(const AreaLamp& light, const Ray& ray) {
+  const Vec3d from_center = Vec3d(ray.origin) - light.center, direction(ray.direction);
+  const double height = dot(from_center, light.normal), approach = -dot(direction, light.normal);
   if (!(height > 0 && approach > 0)) return std::nullopt;
   const double t = height / approach;
   if (!(t >= ray.t_min && t <= ray.t_max)) return std::nullopt;
-  if (!is_on_plate(light, plate, from_center + direction * t)) return std::nullopt;
+  if (!is_on_plate(light, from_center + direction * t)) return std::nullopt;
 
   const double direction_squared = length_squared(direction);
   const double cosine = approach / std::sqrt(direction_squared);
-  PlaceDensity density{.per_area = 1 / plate.area};
-  if (!light.is_ellipse && is_perpendicular(plate)) {
-    const Window window = window_of(light, plate, from_center, height);
+  PlaceDensity density{.per_area = 1 / light.area};
+  if (light.is_rectangle) {
+    const Window window = window_of(light, from_center, height);
     if (window.is_empty()) return std::nullopt;
     const double solid_angle = SphericalRectangle(window.min, window.max, window.height).solid_angle();
     density = {.per_area = 1 / window.area(),
@@ -167,42 +156,39 @@ std::optional<LightHit> intersect_lamp(const AreaLight& light, const Ray& ray) {
 }
 
 // Directions by the cosine within the spread.
-EmissionSample sample_lamp_emission(const AreaLight& light, Vec2f u_position, Vec2f u_direction, Vec3f, float) {
-  const Plate plate = plate_of(light);
-  const Vec3d place = plate.center + sample_plate(light, plate, u_position);
+EmissionSample sample_lamp_emission(const AreaLamp& light, Vec2f u_position, Vec2f u_direction, Vec3f, float) {
+  const Vec3d place = light.center + sample_plate(light, u_position);
   // The cone's projection onto the plate is a disc, in which the cosine is uniform.
   const double cone = cone_sin_squared(light);
   const Vec2d on_disk = Vec2d(sample_disk(u_direction)) * std::sqrt(cone);
   const double cosine = std::sqrt(std::max(0.0, 1 - on_disk.x * on_disk.x - on_disk.y * on_disk.y));
-  const Vec3f normal(plate.normal);
+  const Vec3f normal(light.normal);
   const Vec3f direction = make_frame(normal).to_world({float(on_disk.x), float(on_disk.y), float(cosine)});
   return {.ray = {.origin = Vec3f(place), .direction = direction},
           .normal = normal,
-          .weight = light.radiance * float(spread_share(light, cosine) * std::numbers::pi * cone * plate.area),
-          .pdf_position = float(1 / plate.area),
+          .weight = light.radiance * float(spread_share(light, cosine) * std::numbers::pi * cone * light.area),
+          .pdf_position = float(1 / light.area),
           .pdf_direction = float(cosine / (std::numbers::pi * cone))};
 }
 
-EmissionPdf lamp_emission_pdf(const AreaLight& light, Vec3f, Vec3f direction, float) {
-  const Plate plate = plate_of(light);
-  const double cosine = dot(Vec3d(direction), plate.normal), cone = cone_sin_squared(light);
+EmissionPdf lamp_emission_pdf(const AreaLamp& light, Vec3f, Vec3f direction, float) {
+  const double cosine = dot(Vec3d(direction), light.normal), cone = cone_sin_squared(light);
   const bool is_inside = cosine > 0 && 1 - cosine * cosine <= cone;
-  return {float(1 / plate.area), is_inside ? float(cosine / (std::numbers::pi * cone)) : 0};
+  return {float(1 / light.area), is_inside ? float(cosine / (std::numbers::pi * cone)) : 0};
 }
 
-LightBounds lamp_bounds(const AreaLight& light) {
-  const Plate plate = plate_of(light);
+LightBounds lamp_bounds(const AreaLamp& light) {
   Bounds3f box;
   for (const double x : {-0.5, 0.5})
-    for (const double y : {-0.5, 0.5}) box.extend(Vec3f(plate.center + plate.edge_x * x + plate.edge_y * y));
+    for (const double y : {-0.5, 0.5}) box.extend(Vec3f(light.center + light.edge_x * x + light.edge_y * y));
   return {.box = box,
-          .axis = Vec3f(plate.normal),
+          .axis = Vec3f(light.normal),
           .cos_normals = 1,
-          .cos_emission = has_full_spread(light) ? 0 : float(std::cos(half_spread(light))),
+          .cos_emission = light.has_full_spread ? 0 : float(std::cos(light.half_spread)),
           .is_solid = true,
-          .intensity = luminance(light.radiance) * float(plate.area * spread_share(light, 1))};
+          .intensity = luminance(light.radiance) * float(light.area * spread_share(light, 1))};
 }
 
-float lamp_power(const AreaLight& light, float) { return pi * float(plate_of(light).area) * luminance(light.radiance); }
+float lamp_power(const AreaLamp& light, float) { return pi * float(light.area) * luminance(light.radiance); }
 
 }  // namespace basicrt

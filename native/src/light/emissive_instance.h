@@ -19,8 +19,14 @@ struct EmissiveInstance {
   TransformD object_to_world;
   TransformD world_to_object;
   std::vector<TransformD> motion;  // as of a TracedInstance: object to world over time, or none
-  // Radiance of each material slot's front and back.
+  // Radiance of each material slot's front and back, where that is the same everywhere.
   std::vector<Color> front, back;
+  // Where it isn't on some slot: about how much each triangle's (or the sphere's) two sides emit, luminance.
+  struct Estimate {
+    float front = 0, back = 0;
+  };
+  std::vector<Estimate> estimates;
+  std::vector<bool> is_varying;  // of each slot, where there are estimates
 };
 
 }  // namespace basicrt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An equirectangular picture that is turned or stretched is sampled cell by cell as it is, and densities carried over;
+// An equirectangular picture that is turned or stretched is sampled cell by cell as it lies, and densities carried over;
 // any other way of looking a picture up is first drawn into a smaller one.
 #include "light/environment_sampler.h"
 
@@ -58,6 +58,28 @@ EquirectTable make_table(int width, int height, const LuminanceRow& row_of, floa
             }
           },
           threads};
+}
+
+// Between few pixels a picture varies too much for one density: then each of them has so many cells along either axis,
+// an even number, so that those of a linear lookup have their centre's value as their mean.
+int cells_of_pixel(const Image& image, ImageInterpolation interpolation) {
+  constexpr int enough_columns = 1024;
+  int cells = 1;
+  if (interpolation != ImageInterpolation::closest)
+    while (image.width * cells < enough_columns) cells *= 2;
+  return cells;
+}
+
+EquirectTable make_fine_table(const Image& image, ImageInterpolation interpolation, int cells, int threads) {
+  const int width = image.width * cells, height = image.height * cells;
+  const ImageLookup lookup{.interpolation = interpolation, .extension = ImageExtension::repeat};
+  const auto row_of = [&](int y, std::span<float> out) {
+    const float v = (float(y) + 0.5f) / float(height);
+    for (int x = 0; x < width; ++x)
+      out[static_cast<std::size_t>(x)] =
+          luminance(max(eval_image(image, lookup, {(float(x) + 0.5f) / float(width), v}).color, Color(0.0f)));
+  };
+  return make_table(width, height, row_of, 0, threads);
 }
 
 EquirectTable make_drawn_table(const EnvironmentLayer& layer, int threads) {
@@ -137,8 +159,11 @@ EnvironmentSampler::Picture EnvironmentSampler::make_picture(const EnvironmentLa
   if (layer.projection != EnvironmentProjection::equirectangular || !is_one_to_one(to_image))
     return {.table = make_drawn_table(layer, threads), .is_in_world = true, .to_image = {}, .to_world = {}};
   const Image& image = layer.image;
+  const int cells = cells_of_pixel(image, layer.interpolation);
   const auto row_of = [&](int y, std::span<float> out) { luminance_row(image, y, out); };
-  return {.table = make_table(image.width, image.height, row_of, neighbour_share(layer.interpolation), threads),
+  return {.table = cells > 1
+                       ? make_fine_table(image, layer.interpolation, cells, threads)
+                       : make_table(image.width, image.height, row_of, neighbour_share(layer.interpolation), threads),
           .is_in_world = false,
           .to_image = to_image,
           .to_world = inverse(to_image)};

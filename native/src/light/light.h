@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lamps: described in radiometric units, sampled towards a point and from themselves. Lamps do not block rays.
+// The lamps as they are described, in radiometric units, and what comes of sampling them.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 #include <tuple>
 #include <variant>
 
 #include "base/describe.h"
-#include "light/light_bounds.h"
+#include "geometry/hit.h"
 #include "light/light_group.h"
 #include "math/color.h"
 #include "math/ray.h"
@@ -135,6 +134,8 @@ struct LightSample {
   bool casts_shadows = true;
   int max_bounces = 1024;
   int light_group = 0;
+  // Of a surface that doesn't emit the same everywhere: whose it is. The radiance counts times what it emits there.
+  std::uint32_t emitter_instance = Hit::none, emitter_primitive = Hit::none;
 };
 
 // Light that a ray runs into.
@@ -154,25 +155,9 @@ struct EmissionSample {
   float pdf_direction = 1;  // over solid angle (1 for a sun without angle)
 };
 
-// RayKind bits of the rays that see the lamp.
-[[nodiscard]] std::uint32_t visibility(const Light& light);
-// Light from a single place or direction: rays never run into it.
-[[nodiscard]] bool is_delta(const Light& light);
-// Nothing where no light arrives.
-[[nodiscard]] std::optional<LightSample> sample_light(const Light& light, Vec3f position, Vec2f u);
-[[nodiscard]] std::optional<LightHit> intersect_light(const Light& light, const Ray& ray);
-[[nodiscard]] float light_pdf(const Light& light, Vec3f position, Vec3f wi);
-// `scene_center` and `scene_radius` say where a sun's rays must pass.
-[[nodiscard]] std::optional<EmissionSample> sample_emission(const Light& light, Vec2f u_position, Vec2f u_direction,
-                                                            Vec3f scene_center, float scene_radius);
-// The two densities of sample_emission for a ray that leaves the light at `position` along `direction`.
+// The two densities of sample_emission.
 struct EmissionPdf {
   float position = 0, direction = 0;
 };
-[[nodiscard]] EmissionPdf emission_pdf(const Light& light, Vec3f position, Vec3f direction, float scene_radius);
-// What lights are chosen by.
-[[nodiscard]] std::variant<LightBounds, DistantBounds> light_bounds(const Light& light);
-// Watts, all directions together.
-[[nodiscard]] float power_estimate(const Light& light, float scene_radius);
 
 }  // namespace basicrt

@@ -30,9 +30,9 @@ float environment_share(const EnvironmentSampler& environment, float scene_radiu
 
 }  // namespace
 
-LightSet::LightSet(std::vector<Light> lamps, std::vector<EmissiveInstance> emitters, EnvironmentSampler environment,
-                   const Bounds3f& scene_bounds)
-    : lamps_(std::move(lamps)), environment_(std::move(environment)) {
+LightSet::LightSet(const std::vector<Light>& lamps, const std::vector<EmissiveInstance>& emitters,
+                   EnvironmentSampler environment, const Bounds3f& scene_bounds)
+    : lamps_(lamps.begin(), lamps.end()), environment_(std::move(environment)) {
   const float scene_radius = radius_of(scene_bounds);
   double power = 0;
   const auto add_power = [&](double of_one) {
@@ -46,7 +46,7 @@ LightSet::LightSet(std::vector<Light> lamps, std::vector<EmissiveInstance> emitt
                           [&](const DistantBounds& bounds) { picker_.add_distant({i, 0}, bounds); }},
                light_bounds(lamps_[i]));
     if (picker_.size() == before || is_delta(lamps_[i])) continue;  // black ones needn't be met
-    (std::holds_alternative<SunLight>(lamps_[i]) ? distant_lamps_with_size_ : lamps_with_size_).push_back(i);
+    (std::holds_alternative<SunLight>(lamps_[i].kind) ? distant_lamps_with_size_ : lamps_with_size_).push_back(i);
   }
   emitters_.reserve(emitters.size());
   for (const EmissiveInstance& instance : emitters) {

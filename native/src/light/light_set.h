@@ -11,7 +11,7 @@
 #include "geometry/surface_point.h"
 #include "light/emissive_instance.h"
 #include "light/environment_sampler.h"
-#include "light/light.h"
+#include "light/lamp.h"
 #include "light/light_picker.h"
 #include "light/mesh_emitter.h"
 #include "light/sphere_emitter.h"
@@ -21,8 +21,8 @@ namespace basicrt {
 class LightSet {
  public:
   LightSet() = default;
-  LightSet(std::vector<Light> lamps, std::vector<EmissiveInstance> emitters, EnvironmentSampler environment,
-           const Bounds3f& scene_bounds);
+  LightSet(const std::vector<Light>& lamps, const std::vector<EmissiveInstance>& emitters,
+           EnvironmentSampler environment, const Bounds3f& scene_bounds);
 
   // Chooses a light with `choice` and a place on it with `u`; the pdf includes the choice. Nothing where no light
   // reaches the point. Emissive shapes that move are where they are at the time.
@@ -78,7 +78,7 @@ class LightSet {
     visit(*hit);
   }
 
-  std::vector<Light> lamps_;
+  std::vector<Lamp> lamps_;
   std::vector<std::uint32_t> lamps_with_size_, distant_lamps_with_size_;  // those that rays can run into
   std::vector<Emitter> emitters_;
   std::vector<int> emitter_groups_;                 // of each emitter

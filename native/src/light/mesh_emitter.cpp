@@ -11,17 +11,22 @@ MeshEmitter::MeshEmitter(const EmissiveInstance& instance, const Mesh& mesh)
       object_to_world_(instance.object_to_world),
       motion_(instance.motion),
       is_mirrored_(instance.object_to_world.determinant() < 0),
+      instance_(instance.instance),
       front_(instance.front),
-      back_(instance.back) {
-  for (std::uint32_t i = 0; i < triangle_count(); ++i)
-    if (const double shed = radiance(i); shed > 0) power_ += shed * std::numbers::pi * mean_area(i);
+      back_(instance.back),
+      is_varying_(instance.is_varying),
+      estimates_(instance.estimates) {
+  for (std::uint32_t i = 0; i < triangle_count(); ++i) {
+    const auto [front, back] = emitted(i);
+    if (const double shed = double(front) + back; shed > 0) power_ += shed * std::numbers::pi * mean_area(i);
+  }
 }
 
 LightBounds MeshEmitter::bounds(std::uint32_t triangle) const {
   LightBounds bounds;
-  if (!(radiance(triangle) > 0)) return bounds;
+  const auto [front, back] = emitted(triangle);
+  if (!(front > 0 || back > 0)) return bounds;
   if (is_moving()) return moving_bounds(triangle);
-  const float front = luminance(front_[slot(triangle)]), back = luminance(back_[slot(triangle)]);
   const EmitterTriangle corners = place(triangle, 0).corners;
   const Vec3d across = corners.cross_product();
   const double twice_area = length(across);
@@ -47,8 +52,8 @@ LightBounds MeshEmitter::moving_bounds(std::uint32_t triangle) const {
       const Vec3d corner(mesh_->position_at(triangle, i, time));
       for (const TransformD& object_to_world : places) bounds.box.extend(Vec3f(object_to_world.point(corner)));
     }
-  const double front = luminance(front_[slot(triangle)]), back = luminance(back_[slot(triangle)]);
-  const double intensity = std::max(front, back) * mean_area(triangle);
+  const auto [front, back] = emitted(triangle);
+  const double intensity = double(std::max(front, back)) * mean_area(triangle);
   bounds.intensity = static_cast<float>(std::min<double>(intensity, std::numeric_limits<float>::max()));
   return bounds;
 }
@@ -57,22 +62,34 @@ std::optional<LightSample> MeshEmitter::sample(std::uint32_t triangle, Vec3f pos
   const PlacedTriangle placed = place(triangle, time);
   const std::optional<TrianglePlace> chosen = sample_triangle_emitter(placed.corners, Vec3d(position), u);
   if (!chosen) return std::nullopt;
+  const bool is_front = is_front_along(chosen->offset, placed);
+  const auto [front, back] = emitted(triangle);
+  if (!((is_front ? front : back) > 0)) return std::nullopt;
   const double distance = length(chosen->offset);
-  return LightSample{.wi = Vec3f(chosen->offset / distance),
-                     .distance = float(distance),
-                     .radiance = radiance_along(chosen->offset, triangle, placed),
-                     .pdf = float(chosen->pdf)};
+  LightSample sample{.wi = Vec3f(chosen->offset / distance), .distance = float(distance), .pdf = float(chosen->pdf)};
+  const std::size_t of_slot = slot(triangle);
+  if (!estimates_.empty() && is_varying_[of_slot]) {
+    sample.radiance = Color(1.0f);
+    sample.emitter_instance = instance_;
+    sample.emitter_primitive = triangle;
+  } else {
+    sample.radiance = is_front ? front_[of_slot] : back_[of_slot];
+  }
+  return sample;
 }
 
 double MeshEmitter::pdf(std::uint32_t triangle, Vec3f point, Vec3f position, float time) const {
   const PlacedTriangle placed = place(triangle, time);
   const Vec3d offset = Vec3d(point) - Vec3d(position);
-  if (is_black(radiance_along(offset, triangle, placed))) return 0;
+  const auto [front, back] = emitted(triangle);
+  if (!((is_front_along(offset, placed) ? front : back) > 0)) return 0;
   return pdf_triangle_emitter(placed.corners, Vec3d(position), offset);
 }
 
-double MeshEmitter::radiance(std::uint32_t triangle) const {
-  return double(luminance(front_[slot(triangle)])) + luminance(back_[slot(triangle)]);
+EmissiveInstance::Estimate MeshEmitter::emitted(std::uint32_t triangle) const {
+  if (!estimates_.empty()) return estimates_[triangle];
+  const std::size_t of_slot = slot(triangle);
+  return {luminance(front_[of_slot]), luminance(back_[of_slot])};
 }
 
 MeshEmitter::PlacedTriangle MeshEmitter::place(std::uint32_t triangle, float time) const {
@@ -94,10 +111,9 @@ double MeshEmitter::mean_area(std::uint32_t triangle) const {
   return sum / double(intervals + 1);
 }
 
-Color MeshEmitter::radiance_along(Vec3d offset, std::uint32_t triangle, const PlacedTriangle& placed) const {
-  // The front is where the winding has it in object space: a mirror turns the winding round, not the front.
-  const bool is_front = (dot(offset, placed.corners.cross_product()) < 0) != placed.is_mirrored;
-  return is_front ? front_[slot(triangle)] : back_[slot(triangle)];
+// The front is where the winding has it in object space: a mirror turns the winding round, not the front.
+bool MeshEmitter::is_front_along(Vec3d offset, const PlacedTriangle& placed) {
+  return (dot(offset, placed.corners.cross_product()) < 0) != placed.is_mirrored;
 }
 
 // Slots beyond the last have the last one's material.

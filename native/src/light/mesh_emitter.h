@@ -7,6 +7,7 @@
 #include "geometry/surface_point.h"
 #include "light/emissive_instance.h"
 #include "light/light.h"
+#include "light/light_bounds.h"
 #include "light/triangle_emitter.h"
 
 namespace basicrt {
@@ -33,17 +34,20 @@ class MeshEmitter {
   [[nodiscard]] PlacedTriangle place(std::uint32_t triangle, float time) const;
   [[nodiscard]] bool is_moving() const { return mesh_->is_deforming() || !motion_.empty(); }
   [[nodiscard]] LightBounds moving_bounds(std::uint32_t triangle) const;
-  [[nodiscard]] double mean_area(std::uint32_t triangle) const;  // of its keys
-  [[nodiscard]] double radiance(std::uint32_t triangle) const;   // of both sides together, luminance
-  // Radiance of the side that is seen along `offset`, from a position to the triangle.
-  [[nodiscard]] Color radiance_along(Vec3d offset, std::uint32_t triangle, const PlacedTriangle& placed) const;
+  [[nodiscard]] double mean_area(std::uint32_t triangle) const;                    // of its keys
+  [[nodiscard]] EmissiveInstance::Estimate emitted(std::uint32_t triangle) const;  // luminance
+  // Whether the side that is seen along `offset`, from a position to the triangle, is its front.
+  [[nodiscard]] static bool is_front_along(Vec3d offset, const PlacedTriangle& placed);
   [[nodiscard]] std::size_t slot(std::uint32_t triangle) const;
 
   const Mesh* mesh_;
   TransformD object_to_world_;
   std::vector<TransformD> motion_;
   bool is_mirrored_;
+  std::uint32_t instance_;
   std::vector<Color> front_, back_;
+  std::vector<bool> is_varying_;
+  std::vector<EmissiveInstance::Estimate> estimates_;  // none where nothing varies
   double power_ = 0;
 };
 

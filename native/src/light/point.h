@@ -2,7 +2,10 @@
 // A lamp that shines in every direction alike.
 #pragma once
 
+#include <optional>
+
 #include "light/light.h"
+#include "light/light_bounds.h"
 
 namespace basicrt {
 

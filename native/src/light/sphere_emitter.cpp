@@ -23,10 +23,14 @@ SphereEmitter::SphereEmitter(const EmissiveInstance& instance, const Sphere& sph
     : ball_{sphere.center, sphere.radius},
       placement_(instance.object_to_world),
       motion_(instance.motion),
+      instance_(instance.instance),
+      is_varying_(!instance.estimates.empty()),
       front_(instance.front.front()),
       back_(instance.back.front()),
+      emitted_(is_varying_ ? instance.estimates.front()
+                           : EmissiveInstance::Estimate{luminance(front_), luminance(back_)}),
       power_(std::numbers::pi * surface_area(instance.object_to_world, sphere.radius) *
-             (double(luminance(front_)) + luminance(back_))) {}
+             (double(emitted_.front) + emitted_.back)) {}
 
 LightBounds SphereEmitter::bounds() const {
   LightBounds bounds;
@@ -41,7 +45,7 @@ LightBounds SphereEmitter::bounds() const {
     area = std::max(area, surface_area(object_to_world, ball_.radius));
   }
   // Seen from outside, a convex body shows a quarter of its surface on average.
-  const double intensity = area / 4 * std::max(double(luminance(front_)), double(luminance(back_)));
+  const double intensity = area / 4 * double(std::max(emitted_.front, emitted_.back));
   bounds.intensity = static_cast<float>(std::min<double>(intensity, std::numeric_limits<float>::max()));
   return bounds;
 }
@@ -51,27 +55,30 @@ std::optional<LightSample> SphereEmitter::sample(Vec3f position, Vec2f u, float 
   const Vec3f local_position(placement.world_to_object.point(Vec3d(position)));
   const std::optional<BallSample> local = sample_ball(ball_, local_position, u);
   if (!local) return std::nullopt;
+  const bool is_front = !is_inside(ball_, local_position);
+  if (!((is_front ? emitted_.front : emitted_.back) > 0)) return std::nullopt;
   const Vec3d local_wi(local->wi), wi = placement.object_to_world.vector(local_wi);
   const double stretch = length(wi);
-  return LightSample{.wi = Vec3f(wi / stretch),
+  LightSample sample{.wi = Vec3f(wi / stretch),
                      .distance = float(local->distance * stretch),
-                     .radiance = radiance_towards(local_position),
+                     .radiance = is_front ? front_ : back_,
                      .pdf = local->pdf * float(solid_angle_ratio(placement.object_to_world, local_wi))};
+  if (is_varying_) {
+    sample.radiance = Color(1.0f);
+    sample.emitter_instance = instance_;
+  }
+  return sample;
 }
 
 double SphereEmitter::pdf(Vec3f place, Vec3f position, float time) const {
   const Placement placement = placement_at(time);
   const Vec3f local_position(placement.world_to_object.point(Vec3d(position)));
-  if (is_black(radiance_towards(local_position))) return 0;
+  if (!((is_inside(ball_, local_position) ? emitted_.back : emitted_.front) > 0)) return 0;
   const Vec3d local_offset = placement.world_to_object.vector(Vec3d(place) - Vec3d(position));
   const double distance = length(local_offset);
   if (!(distance > 0)) return 0;
   return pdf_ball(ball_, local_position, distance) *
          solid_angle_ratio(placement.object_to_world, local_offset / distance);
-}
-
-Color SphereEmitter::radiance_towards(Vec3f local_position) const {
-  return is_inside(ball_, local_position) ? back_ : front_;
 }
 
 }  // namespace basicrt

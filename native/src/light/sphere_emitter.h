@@ -8,6 +8,7 @@
 #include "light/ball.h"
 #include "light/emissive_instance.h"
 #include "light/light.h"
+#include "light/light_bounds.h"
 
 namespace basicrt {
 
@@ -25,12 +26,14 @@ class SphereEmitter {
   [[nodiscard]] Placement placement_at(float time) const {
     return motion_.empty() ? placement_ : Placement(transform_at(motion_, time));
   }
-  [[nodiscard]] Color radiance_towards(Vec3f local_position) const;
 
   Ball ball_;  // object space
   Placement placement_;
   std::vector<TransformD> motion_;
+  std::uint32_t instance_;
+  bool is_varying_;
   Color front_, back_;
+  EmissiveInstance::Estimate emitted_;  // luminance
   double power_;
 };
 

@@ -53,11 +53,12 @@ SphericalRectangle::SphericalRectangle(Vec2d min, Vec2d max, double height) : mi
   const bool is_over = min.x < 0 && max.x > 0 && min.y < 0 && max.y > 0;
   const bool is_close = 2 * height < std::min(max.x - min.x, max.y - min.y);
   solid_angle_ = is_over && is_close ? angle_of(sum) : std::max(0.0, std::atan2(sum.sin, sum.cos));
-  k_ = two_pi - angle_of(g23);
+  inner_cos_ = g23.cos;
+  inner_sin_ = g23.sin;
 }
 
 Vec2d SphericalRectangle::sample(Vec2f u) const {
-  const double au = u.x * solid_angle_ + k_;
+  const double au = u.x * solid_angle_ + two_pi - angle_of({inner_cos_, inner_sin_});
   const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
   // cu = sign(fu) / sqrt(fu^2 + b0^2) is the cosine of the angle to x, and cu / sqrt(1 - cu^2) its cotangent.
   const double y0_share = height_ * height_ / (min_.y * min_.y + height_ * height_);  // 1 - b0^2

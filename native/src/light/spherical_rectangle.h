@@ -21,7 +21,8 @@ class SphericalRectangle {
   Vec2d min_, max_;
   double height_;
   double b0_, b1_;  // z of the normals of the planes through the eye and the edges y = min.y and y = max.y
-  double k_;        // 2 pi minus the two inner angles at x = min.x
+  // The two inner angles at x = min.x together, as a point on the unit circle.
+  double inner_cos_, inner_sin_;
   double solid_angle_;
 };
 

@@ -9,11 +9,9 @@
 namespace basicrt {
 namespace {
 
-Ball ball_of(const SpotLight& light) { return {light.to_world.column(3), light.radius, light.is_soft}; }
+Ball ball_of(const SpotLamp& light) { return {light.to_world.column(3), light.radius, light.is_soft}; }
 
-Color radiance_of(const SpotLight& light) { return light.intensity / (pi * light.radius * light.radius); }
-
-float cone_of(const SpotLight& light) { return one_minus_cos(std::min(light.angle, 2 * pi) / 2); }
+Color radiance_of(const SpotLamp& light) { return light.intensity / (pi * light.radius * light.radius); }
 
 // 1 - cos of the angle between a direction in local space and -z.
 float one_minus_cos_to_axis(Vec3d local) {
@@ -24,30 +22,33 @@ float one_minus_cos_to_axis(Vec3d local) {
 }
 
 // The share of the intensity that is left where 1 - cos of the angle to the axis is `x`.
-float share_at(const SpotLight& light, float x) {
-  const float cone = cone_of(light);
-  if (x >= cone) return 0;
-  const float fading = cone * light.blend;
-  const float t = fading > 0 ? std::min(1.0f, (cone - x) / fading) : 1;
+float share_at(const SpotLamp& light, float x) {
+  if (x >= light.cone) return 0;
+  const float fading = light.cone * light.blend;
+  const float t = fading > 0 ? std::min(1.0f, (light.cone - x) / fading) : 1;
   return t * t * (3 - 2 * t);
 }
 
-float share_towards(const SpotLight& light, Vec3f direction) {
-  return share_at(light, one_minus_cos_to_axis(inverse(TransformD(light.to_world)).vector(Vec3d(direction))));
+float share_towards(const SpotLamp& light, Vec3f direction) {
+  return share_at(light, one_minus_cos_to_axis(light.to_local.vector(Vec3d(direction))));
 }
 
-float direction_pdf(const SpotLight& light, Vec3f direction) {
-  const Vec3d local = inverse(TransformD(light.to_world)).vector(Vec3d(direction));
-  const float cone = cone_of(light);
-  if (one_minus_cos_to_axis(local) >= cone) return 0;
-  return pdf_cone(cone) * float(solid_angle_ratio(TransformD(light.to_world), normalize(local)));
+float direction_pdf(const SpotLamp& light, Vec3f direction) {
+  const Vec3d local = light.to_local.vector(Vec3d(direction));
+  if (one_minus_cos_to_axis(local) >= light.cone) return 0;
+  return pdf_cone(light.cone) * float(solid_angle_ratio(TransformD(light.to_world), normalize(local)));
 }
 
 }  // namespace
 
-bool is_delta_lamp(const SpotLight& light) { return light.radius < smallest_ball_radius; }
+SpotLamp::SpotLamp(const SpotLight& light)
+    : SpotLight(light),
+      to_local(inverse(TransformD(light.to_world))),
+      cone(one_minus_cos(std::min(light.angle, 2 * pi) / 2)) {}
 
-std::optional<LightSample> sample_lamp(const SpotLight& light, Vec3f position, Vec2f u) {
+bool is_delta_lamp(const SpotLamp& light) { return light.radius < smallest_ball_radius; }
+
+std::optional<LightSample> sample_lamp(const SpotLamp& light, Vec3f position, Vec2f u) {
   if (is_delta_lamp(light)) {
     const Vec3d to_light = Vec3d(light.to_world.column(3)) - Vec3d(position);
     const double distance = length(to_light);
@@ -67,7 +68,7 @@ std::optional<LightSample> sample_lamp(const SpotLight& light, Vec3f position, V
                      .pdf = sample->pdf};
 }
 
-std::optional<LightHit> intersect_lamp(const SpotLight& light, const Ray& ray) {
+std::optional<LightHit> intersect_lamp(const SpotLamp& light, const Ray& ray) {
   if (is_delta_lamp(light)) return std::nullopt;
   const std::optional<BallHit> hit = intersect_ball(ball_of(light), ray);
   if (!hit) return std::nullopt;
@@ -75,12 +76,11 @@ std::optional<LightHit> intersect_lamp(const SpotLight& light, const Ray& ray) {
 }
 
 // As for a point lamp, a soft one starts its paths as a sphere.
-EmissionSample sample_lamp_emission(const SpotLight& light, Vec2f u_position, Vec2f u_direction, Vec3f, float) {
-  const float cone = cone_of(light);
-  const Vec3d in_cone(sample_cone(u_direction, cone));
+EmissionSample sample_lamp_emission(const SpotLamp& light, Vec2f u_position, Vec2f u_direction, Vec3f, float) {
+  const Vec3d in_cone(sample_cone(u_direction, light.cone));
   const Vec3d local{in_cone.x, in_cone.y, -in_cone.z};
   const Vec3f direction(normalize(TransformD(light.to_world).vector(local)));
-  const float pdf_direction = pdf_cone(cone) * float(solid_angle_ratio(TransformD(light.to_world), local));
+  const float pdf_direction = pdf_cone(light.cone) * float(solid_angle_ratio(TransformD(light.to_world), local));
   const Color weight = light.intensity * (share_at(light, one_minus_cos_to_axis(local)) / pdf_direction);
   if (is_delta_lamp(light))
     return {.ray = {.origin = light.to_world.column(3), .direction = direction},
@@ -96,13 +96,13 @@ EmissionSample sample_lamp_emission(const SpotLight& light, Vec2f u_position, Ve
           .pdf_direction = pdf_direction};
 }
 
-EmissionPdf lamp_emission_pdf(const SpotLight& light, Vec3f position, Vec3f direction, float) {
+EmissionPdf lamp_emission_pdf(const SpotLamp& light, Vec3f position, Vec3f direction, float) {
   return {is_delta_lamp(light) ? 1 : ball_position_pdf(ball_of(light), position, direction),
           direction_pdf(light, direction)};
 }
 
 // The cone as if everything in it were a normal. A transform that isn't a similarity may widen it: then nothing is said.
-LightBounds lamp_bounds(const SpotLight& light) {
+LightBounds lamp_bounds(const SpotLamp& light) {
   const TransformD to_world(light.to_world);
   const Vec3d x = to_world.column(0), y = to_world.column(1), z = to_world.column(2);
   const double scale = length_squared(z), slack = 1e-5 * scale;
@@ -111,15 +111,15 @@ LightBounds lamp_bounds(const SpotLight& light) {
                              std::abs(dot(x, z)) <= slack && std::abs(dot(y, z)) <= slack;
   return {.box = box_of(ball_of(light)),
           .axis = Vec3f(-normalize(z)),
-          .cos_normals = is_similarity ? 1 - cone_of(light) : -1,
+          .cos_normals = is_similarity ? 1 - light.cone : -1,
           .cos_emission = 1,
           .is_solid = !is_delta_lamp(light),
           .intensity = luminance(light.intensity)};
 }
 
 // Exact where the scale is the same along every axis: the integral of the share over the cone.
-float lamp_power(const SpotLight& light, float) {
-  const float solid_angle = 2 * pi * cone_of(light) * (1 - light.blend / 2);
+float lamp_power(const SpotLamp& light, float) {
+  const float solid_angle = 2 * pi * light.cone * (1 - light.blend / 2);
   const float squeezed = solid_angle / float(solid_angle_ratio(TransformD(light.to_world), {0, 0, -1}));
   return std::min(squeezed, 4 * pi) * luminance(light.intensity);
 }

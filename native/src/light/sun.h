@@ -2,7 +2,10 @@
 // A lamp so far away that its light arrives from the same directions everywhere.
 #pragma once
 
+#include <optional>
+
 #include "light/light.h"
+#include "light/light_bounds.h"
 
 namespace basicrt {
 

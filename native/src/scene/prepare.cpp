@@ -14,6 +14,7 @@
 #include "base/parallel_for.h"
 #include "bsdf/bsdf.h"
 #include "film/cryptomatte.h"
+#include "scene/emission_estimate.h"
 #include "scene/mattes.h"
 
 namespace basicrt {
@@ -271,7 +272,7 @@ bool is_sampled_as_light(const Shape& shape) {
   return std::holds_alternative<Mesh>(shape) || std::holds_alternative<Sphere>(shape);
 }
 
-std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::uint32_t index) {
+std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::uint32_t index, int threads) {
   const PreparedScene::PreparedInstance& instance = scene.instances[index];
   if (!is_sampled_as_light(scene.shapes[instance.shape])) return std::nullopt;
   EmissiveInstance result{.instance = index,
@@ -282,14 +283,20 @@ std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::u
                           .motion = instance.motion,
                           .front = {},
                           .back = {}};
-  bool shines = false;
+  bool shines = false, varies = false;
   for (const std::uint32_t material : instance.materials) {
     const Material& described = scene.materials[material].material;
     shines = shines || is_emissive(described);
     result.front.push_back(emitted_radiance(described, SurfaceSide::front));
     result.back.push_back(emitted_radiance(described, SurfaceSide::back));
+    const bool is_varying =
+        has_varying_emission(described, SurfaceSide::front) || has_varying_emission(described, SurfaceSide::back);
+    result.is_varying.push_back(is_varying);
+    varies = varies || is_varying;
   }
-  return shines ? std::optional(std::move(result)) : std::nullopt;
+  if (!shines) return std::nullopt;
+  if (varies) result.estimates = estimate_emission(scene, index, threads);
+  return result;
 }
 
 void set_window(PreparedScene& prepared, const Camera& camera, Vec2i film_size) {
@@ -347,15 +354,16 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   for (const PreparedMaterial& prepared_material : prepared.materials)
     prepared.has_transparency = prepared.has_transparency || is_transparent(prepared_material.material);
   prepared.tracer = Tracer(std::move(trees), std::move(traced), config);
+  apply_view(prepared, *scene.camera, scene.settings);
 
   std::vector<Light> lamps;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) lamps.push_back(scene.lights[i]);
   std::vector<EmissiveInstance> emitters;
   for (std::uint32_t i = 0; i < prepared.instances.size(); ++i)
-    if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i)) emitters.push_back(std::move(*emitter));
-  prepared.lights = LightSet(std::move(lamps), std::move(emitters),
-                             EnvironmentSampler(scene.environment, options.threads), prepared.tracer.bounds());
-  apply_view(prepared, *scene.camera, scene.settings);
+    if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i, options.threads))
+      emitters.push_back(std::move(*emitter));
+  prepared.lights =
+      LightSet(lamps, emitters, EnvironmentSampler(scene.environment, options.threads), prepared.tracer.bounds());
   return prepared;
 }
 

@@ -133,6 +133,7 @@ TEST(Principled, layers_take_their_share_of_emission) {
   EXPECT_NEAR(shading.emission.x, 1 - fresnel_dielectric(wo.z, 1.5f).reflectance, 0.03);
   // It is another in each direction, so lights don't count on it.
   EXPECT_TRUE(is_black(emitted_radiance(test::make_material(node), SurfaceSide::front)));
+  EXPECT_TRUE(has_varying_emission(test::make_material(node), SurfaceSide::front));
 }
 
 TEST(FilmDielectric, is_plain_glass_without_film_and_tint) {

@@ -115,6 +115,40 @@ TEST(Path, a_textured_emitter_sheds_the_light_of_its_bright_half) {
   expect_radiance(scene, Color(0.5f * 3 / 2), 0.02f);
 }
 
+// A small lit square over a floor, of which rays that leave the floor anywhere find next to nothing.
+TEST(Path, a_textured_emitter_is_sampled_as_a_light) {
+  Scene textured = scene_from_above(4);
+  Scene even = textured;
+  ColorInput step;
+  step.texture = add_step(textured);
+  for (Scene* scene : {&textured, &even}) {
+    add_instance(*scene, square(5, 0), add_material(*scene, DiffuseShader{.color = Color(0.5f)}));
+    Mesh emitter = square_with_uvs(0.05f, 1);
+    for (Vec3f& p : emitter.positions) p.x += 1;
+    const bool is_even = scene == &even;
+    if (is_even)
+      for (Vec3f& p : emitter.positions) p.x = std::max(p.x, 1.0f);  // its bright half
+    add_instance(
+        *scene, emitter,
+        add_material(*scene, EmissionShader{.radiance = is_even ? ColorInput(Color(1.0f)) : step, .strength = 3}));
+  }
+  const auto deviation = [](const Scene& scene, float mean) {
+    Report report;
+    const Film film = render(prepare(scene, report));
+    const std::vector<float>& combined = film.values(Pass::combined);
+    double sum = 0;
+    for (std::size_t i = 0; i < combined.size(); i += 4) sum += (combined[i] - mean) * (combined[i] - mean);
+    return std::sqrt(sum / double(combined.size() / 4)) / mean;
+  };
+  Scene many = even;
+  many.settings.samples = 256;
+  const float mean = render_mean(many).radiance.x;
+  EXPECT_LT(deviation(even, mean), 0.02);
+  EXPECT_LT(deviation(textured, mean), 0.6);  // half of the samples go to its dark half
+  textured.settings.samples = 1024;
+  expect_radiance(textured, Color(mean), 0.01f);
+}
+
 TEST(Path, a_share_that_varies_cuts_a_hole) {
   // A sheet between floor and camera that is opaque and black where u is above a half.
   for (const float x : {-0.1f, 0.1f}) {

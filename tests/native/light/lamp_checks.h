@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "light/light.h"
+#include "light/lamp.h"
 #include "support/chi_square.h"
 
 namespace basicrt::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What every lamp must keep: densities that samples follow, and one radiance whichever way it is found.
-#include "light/light.h"
+#include "light/lamp.h"
 
 #include <gtest/gtest.h>
 

@@ -106,7 +106,9 @@ TEST(Program, shader_shows_the_operation_value) {
   material.surface = material.add(ShaderNode(EmissionShader{.radiance = uv}));
   const PreparedMaterial prepared(material, no_textures);
   EXPECT_EQ(shade(prepared.material, no_textures, point, {0, 0, 1}).emission, Color(0.25f, 0.75f, 0));
-  EXPECT_EQ(emitted_radiance(prepared.material, SurfaceSide::front), Color(0.0f));  // not sampled: found by rays
+  EXPECT_EQ(emitted_radiance(prepared.material, SurfaceSide::front), Color(0.0f));
+  EXPECT_TRUE(has_varying_emission(prepared.material, SurfaceSide::front));
+  EXPECT_TRUE(is_emissive(prepared.material));
 }
 
 TEST(Program, values_stay_in_the_range_of_the_input) {
