@@ -17,7 +17,8 @@ class SphereEmitter {
   SphereEmitter(const EmissiveInstance& instance, const Sphere& sphere);
 
   [[nodiscard]] double power() const { return power_; }  // watts, of the luminance
-  [[nodiscard]] LightBounds bounds() const;              // at all times
+  [[nodiscard]] Vec3f center() const { return Vec3f(placement_.object_to_world.point(Vec3d(ball_.center))); }
+  [[nodiscard]] LightBounds bounds() const;  // at all times
   [[nodiscard]] std::optional<LightSample> sample(Vec3f position, Vec2f u, float time) const;
   // The density of sample() for a place on the surface.
   [[nodiscard]] double pdf(Vec3f place, Vec3f position, float time) const;
