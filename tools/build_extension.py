@@ -104,8 +104,22 @@ def build_extension(wheels: Sequence[Path]) -> Path:
     return target
 
 
+def build_repository(extension: Path) -> Path | None:
+    """A folder that any web server can offer as a repository of extensions; None without Blender's own tool."""
+    validators = find_validators()
+    if not validators:
+        return None
+    folder = DIST / "repository"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    shutil.copy2(extension, folder)
+    python, script = validators[-1]
+    run([python, script, "server-generate", "--repo-dir", folder, "--html"], quiet=True)
+    return folder
+
+
 def main() -> int:
-    """Build the wheels and the zip."""
+    """Build the wheels, the zip and the repository."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -114,7 +128,10 @@ def main() -> int:
     try:
         wheels = [build_wheel(wanted) for wanted in pythons.available_pythons()]
         wheels += [build_foreign_wheel(root.resolve()) for root in arguments.headers]
-        say(f"made {relative(build_extension(wheels))}")
+        extension = build_extension(wheels)
+        say(f"made {relative(extension)}")
+        if repository := build_repository(extension):
+            say(f"made {relative(repository)}")
     except ToolError as error:
         print(error, file=sys.stderr)
         return 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The checks that need no build: formatters, linters, types and layers. `--fix` corrects what it can."""
+"""The checks that need no build: formatters, linters, types, layers, documentation. `--fix` corrects what it can."""
 
 from __future__ import annotations
 
@@ -32,6 +32,7 @@ def checks() -> dict[str, Command]:
         "ruff": [bin_folder / "ruff", "check", "--quiet", "."],
         "ruff-format": [bin_folder / "ruff", "format", "--diff", "."],
         "mypy": [bin_folder / "mypy", *typed],
+        "docs": [bin_folder / "mkdocs", "build", "--quiet", "--strict"],
     }
     if cpp_files():
         commands["clang-format"] = [

@@ -20,7 +20,7 @@ import bootstrap
 import lint
 import pythons
 import real_blenders
-from build_extension import build_extension
+from build_extension import build_extension, build_repository
 from build_wheel import build_foreign_wheel, build_wheel, install_wheel
 from project import (
     DIST,
@@ -248,7 +248,8 @@ def run_extension(context: Context) -> Counts:
         bootstrap.ensure_venv(f"bpy-{version}")
     wheels = [build_wheel(version) for version in pythons.available_pythons()]
     wheels += [build_foreign_wheel(root) for root in foreign_roots()]
-    context.log.write(f"{build_extension(wheels)}\n")
+    extension = build_extension(wheels)
+    context.log.write(f"{extension}\n{build_repository(extension)}\n")
     return Counts(passed=1)
 
 

@@ -265,8 +265,11 @@ void PathIntegrator::cut_out(const Path& path, const Ray& ray, const SurfacePoin
 void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf,
                                    PixelSample& sample) {
   if (bsdf.has_only_deltas() || scene_.lights.is_empty()) return;
-  const std::optional<LightSample> light = pick_light(path, {point.position, bsdf.lit_side(-ray.direction)}, ray.time);
+  const float choice = path.sampler.next_1d();
+  std::optional<LightSample> light =
+      scene_.lights.sample({point.position, bsdf.lit_side(-ray.direction)}, choice, path.sampler.next_2d(), ray.time);
   if (!light || path.bounces.total > light->max_bounces) return;
+  look_up_emission(path, point.position, ray.time, *light);
   BsdfValue reflected = eval_towards(*light, point, -ray.direction, bsdf);
   reflected.value *= terminator_share(point, light->wi);
   const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, reflected.pdf);
@@ -290,21 +293,18 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
 }
 
 // As the material of what shines sees it that is nobody's ray: none of Blender's kinds.
-std::optional<LightSample> PathIntegrator::pick_light(Path& path, const LitPoint& point, float time) const {
-  const float choice = path.sampler.next_1d();
-  std::optional<LightSample> light = scene_.lights.sample(point, choice, path.sampler.next_2d(), time);
-  if (!light || light->emitter_instance == Hit::none) return light;
-  const Ray ray{.origin = point.position, .direction = light->wi, .time = time};
-  const SurfacePoint place =
-      surface_point_at(scene_, ray, {light->distance, light->emitter_instance, light->emitter_primitive});
-  light->radiance *= shade_at(scene_, place, -light->wi, [&] {
-                       ShadingContext context = shading_context(scene_, place, 0);
-                       context.random_bits = path.sampler.fingerprint();
-                       set_bounces(context, path.bounces);
-                       ++context.bounces;
-                       return context;
-                     }).emission;
-  return is_black(light->radiance) ? std::nullopt : light;
+void PathIntegrator::look_up_emission(const Path& path, Vec3f position, float time, LightSample& light) const {
+  if (light.emitter_instance == Hit::none) return;
+  const Ray ray{.origin = position, .direction = light.wi, .time = time};
+  const Hit hit{.t = light.distance, .instance = light.emitter_instance, .primitive = light.emitter_primitive};
+  const SurfacePoint place = surface_point_at(scene_, ray, hit);
+  light.radiance *= shade_at(scene_, place, -light.wi, [&] {
+                      ShadingContext context = shading_context(scene_, place, 0);
+                      context.random_bits = path.sampler.fingerprint();
+                      set_bounces(context, path.bounces);
+                      ++context.bounces;
+                      return context;
+                    }).emission;
 }
 
 // What the object's shading offset leaves of light that is reflected from a direction.

@@ -92,8 +92,8 @@ class PathIntegrator final : public Integrator {
   void cut_out(const Path& path, const Ray& ray, const SurfacePoint& point, SurfaceShading& shading,
                PixelSample& sample) const;
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
-  // A light's sample towards the point, with what varies on it looked up.
-  [[nodiscard]] std::optional<LightSample> pick_light(Path& path, const LitPoint& point, float time) const;
+  // Looks up what varies on the surface that a light sample is of.
+  void look_up_emission(const Path& path, Vec3f position, float time, LightSample& light) const;
   [[nodiscard]] float terminator_share(const SurfacePoint& point, Vec3f wi) const;
   [[nodiscard]] BsdfValue eval_towards(const LightSample& light, const SurfacePoint& point, Vec3f wo,
                                        const Bsdf& bsdf) const;

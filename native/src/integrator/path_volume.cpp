@@ -3,7 +3,7 @@
 //
 //   - lamps, and the volume's own emission, dimmed in closed form;
 //   - light that lamps send to some place on the ray, and that is scattered there towards the path: one light sample for
-//     each ray, at a place chosen by collisions and by the angle under which the light sees the ray;
+//     each ray, of a light chosen first, at a place chosen by collisions and by the angle under which it sees the ray;
 //   - by chance, a collision there and then, from which the path goes on in another direction.
 //
 // Light samples and scattered paths are combined by multiple importance sampling over directions, as on surfaces.
@@ -118,19 +118,15 @@ struct ScatteringPlace {
   float distance, pdf;
 };
 
-// By collisions, and by the angle from some place on a light: one that may matter to a guess of the first kind, which is
-// then not used any more. Of several places of both kinds, spread evenly, one is kept in proportion to the product of both
-// densities over their mean (Talbot, Cline and Egbert 2005, "Importance Resampling for Global Illumination"): where the
-// light is strong and still gets back to the ray's origin.
-ScatteringPlace pick_place(const PreparedScene& scene, Sampler& sampler, const Ray& ray,
+// By collisions, and by the angle under which a light is seen. Of several places of both kinds, spread evenly, one is kept
+// in proportion to the product of both densities over their mean (Talbot, Cline and Egbert 2005, "Importance Resampling for
+// Global Illumination"), and to what a beam leaves there: where the light is strong and still gets back to the ray's origin.
+ScatteringPlace pick_place(const PreparedScene& scene, Sampler& sampler, const Ray& ray, const LightSet::Choice& light,
                            const TruncatedCollisionSampling& collisions, float length) {
-  const Vec2f first = sampler.next_2d(), u = sampler.next_2d();
-  const Vec3f start = ray.at(ray.t_min), guess = ray.at(ray.t_min + collisions.sample(first.x, first.y));
-  const float choice = sampler.next_1d();
-  const std::optional<LightSample> aim = scene.lights.sample(guess, choice, sampler.next_2d(), ray.time);
+  const Vec2f u = sampler.next_2d();
   std::optional<EquiangularSampling> angles;
-  if (aim && aim->distance < infinity)
-    angles = EquiangularSampling::make(guess + aim->wi * aim->distance - start, ray.direction, length);
+  if (const std::optional<LightExtent> extent = scene.lights.extent(light))
+    angles = EquiangularSampling::make(extent->center - ray.at(ray.t_min), extent->radius, ray.direction, length);
   if (!angles) {
     const float distance = collisions.sample(u.x, u.y);
     return {distance, collisions.pdf(distance)};
@@ -144,14 +140,16 @@ ScatteringPlace pick_place(const PreparedScene& scene, Sampler& sampler, const R
     const float number = std::min(shifted < 1 ? shifted : shifted - 1, one_minus_epsilon);
     const float distance = i % 2 == 0 ? collisions.sample(u.x, number) : angles->sample(number);
     const float by_collision = collisions.pdf(distance), by_angle = angles->pdf(distance);
-    places[i] = {distance, 2 * by_collision * by_angle / (by_collision + by_angle)};
+    const float beam = scene.lights.beam(light, ray.at(ray.t_min + distance));
+    places[i] = {distance, 2 * by_collision * by_angle * beam / (by_collision + by_angle)};
     sum += places[i].pdf;
   }
   float rest = sampler.next_1d() * sum;
   std::size_t kept = 0;
   while (kept + 1 < places.size() && rest >= places[kept].pdf) rest -= places[kept++].pdf;
   const float distance = places[kept].distance;
-  return {distance, collisions.pdf(distance) * angles->pdf(distance) * places.size() / sum};
+  const float beam = scene.lights.beam(light, ray.at(ray.t_min + distance));
+  return {distance, collisions.pdf(distance) * angles->pdf(distance) * beam * places.size() / sum};
 }
 
 // From a place in a volume.
@@ -233,15 +231,23 @@ void PathIntegrator::sample_lights_in_media(Path& path, const Ray& ray, const Me
   const std::optional<Color> shares = channel_shares(path.throughput * scattered);
   if (!shares) return;
   const TruncatedCollisionSampling collisions(media.extinction, *shares, length);
-  const auto [distance, place_pdf] = pick_place(scene_, path.sampler, ray, collisions, length);
+  // The light is chosen before the place, which is then sought where that light is: near a lamp light grows beyond bounds,
+  // and no other way of finding places there keeps the noise within any.
+  const Vec2f first = path.sampler.next_2d();
+  const Vec3f guess = ray.at(ray.t_min + collisions.sample(first.x, first.y));
+  const std::optional<LightSet::Choice> chosen = scene_.lights.choose(guess, path.sampler.next_1d());
+  if (!chosen) return;
+  const auto [distance, place_pdf] = pick_place(scene_, path.sampler, ray, *chosen, collisions, length);
   const Vec3f position = ray.at(ray.t_min + distance);
-
-  const std::optional<LightSample> light = pick_light(path, position, ray.time);
+  std::optional<LightSample> light = scene_.lights.sample_chosen(*chosen, position, path.sampler.next_2d(), ray.time);
   if (!light || (light->kinds & ray_volume) == 0 || path.bounces.total > light->max_bounces) return;
+  look_up_emission(path, position, ray.time, *light);
   const BsdfValue phase = PhaseMixture(media_[path.media], ray.direction).eval(light->wi);
-  const float weight = light->is_delta ? 1 : power_heuristic(light->pdf, phase.pdf);
+  // Scattered rays that run into the light ask how likely a sample from that place alone is: so does this.
+  const float pdf_there = light->pdf * scene_.lights.probability(*chosen, position);
+  const float weight = light->is_delta ? 1 : power_heuristic(pdf_there, phase.pdf);
   Color radiance = path.throughput * transmittance(media.extinction, distance) * phase.value * light->radiance *
-                   (weight / (light->pdf * place_pdf));
+                   (weight / (light->pdf * chosen->probability * place_pdf));
   if (is_black(radiance) || !survives_light_roulette(path, radiance)) return;
   const RenderSettings& settings = scene_.settings;
   const float most = path.bounces.total > 0 ? settings.clamp_indirect : settings.clamp_direct;

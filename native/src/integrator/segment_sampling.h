@@ -99,11 +99,13 @@ class TruncatedCollisionSampling {
 // Tracing in Participating Media".
 class EquiangularSampling {
  public:
-  // `offset` is from the segment's start to the light. Nothing where the light is on the segment's line.
-  [[nodiscard]] static std::optional<EquiangularSampling> make(Vec3f offset, Vec3f direction, float length) {
+  // `offset` is from the segment's start to the light's middle. What has a radius is never seen from nearer than that: so
+  // near a light of some size nothing grows beyond bounds. Nothing where a light without size is on the segment's line.
+  [[nodiscard]] static std::optional<EquiangularSampling> make(Vec3f offset, float radius, Vec3f direction,
+                                                               float length) {
     EquiangularSampling sampling;
     sampling.nearest_ = dot(offset, direction);
-    sampling.height_ = basicrt::length(offset - direction * sampling.nearest_);
+    sampling.height_ = std::hypot(basicrt::length(offset - direction * sampling.nearest_), radius);
     if (!(sampling.height_ > 1e-6f * basicrt::length(offset))) return std::nullopt;
     sampling.first_angle_ = std::atan(-sampling.nearest_ / sampling.height_);
     sampling.angle_ = std::atan((length - sampling.nearest_) / sampling.height_) - sampling.first_angle_;

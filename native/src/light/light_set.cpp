@@ -31,16 +31,16 @@ float environment_share(const EnvironmentSampler& environment, float scene_radiu
 }  // namespace
 
 LightSet::LightSet(const std::vector<Light>& lamps, const std::vector<EmissiveInstance>& emitters,
-                   EnvironmentSampler environment, const Bounds3f& scene_bounds)
+                   EnvironmentSampler environment, const Bounds3f& scene_bounds, bool has_volumes)
     : lamps_(lamps.begin(), lamps.end()), environment_(std::move(environment)) {
-  const float scene_radius = radius_of(scene_bounds);
+  scene_radius_ = radius_of(scene_bounds);
   double power = 0;
   const auto add_power = [&](double of_one) {
     power += std::min<double>(of_one, std::numeric_limits<float>::max());  // it may have become infinite
   };
   for (std::uint32_t i = 0; i < lamps_.size(); ++i) {
     const std::size_t before = picker_.size();
-    add_power(power_estimate(lamps_[i], scene_radius));
+    add_power(power_estimate(lamps_[i], scene_radius_));
     picker_.add_source(1);
     std::visit(Overloaded{[&](const LightBounds& bounds) { picker_.add({i, 0}, bounds); },
                           [&](const DistantBounds& bounds) { picker_.add_distant({i, 0}, bounds); }},
@@ -54,7 +54,8 @@ LightSet::LightSet(const std::vector<Light>& lamps, const std::vector<EmissiveIn
     add_power(std::visit([](const auto& emitter) { return emitter.power(); }, emitters_.back()));
   }
   picker_.build();
-  environment_share_ = environment_share(environment_, scene_radius, picker_.size() == 0 ? 0 : power);
+  if (has_volumes && picker_.size() > 1) share_by_power();
+  environment_share_ = environment_share(environment_, scene_radius_, picker_.size() == 0 ? 0 : power);
 }
 
 void LightSet::add_emitter(const EmissiveInstance& instance) {
@@ -88,7 +89,7 @@ std::optional<LightSample> LightSet::sample(const LitPoint& point, float choice,
   const float share = is_environment ? environment_share_ : 1 - environment_share_;
   const float rest = std::min((is_environment ? choice : choice - environment_share_) / share, one_minus_epsilon);
   std::optional<LightSample> sample =
-      is_environment ? environment_.sample(rest, u) : sample_lamp_or_emitter(point, rest, u, time);
+      is_environment ? environment_.sample(rest, u) : sample_picked(point, rest, u, time);
   if (!sample) return std::nullopt;
   sample->pdf *= share;
   if (is_environment) sample->light_group = environment_.light_group();
@@ -96,22 +97,109 @@ std::optional<LightSample> LightSet::sample(const LitPoint& point, float choice,
   return sample;
 }
 
-std::optional<LightSample> LightSet::sample_lamp_or_emitter(const LitPoint& point, float choice, Vec2f u,
-                                                            float time) const {
+std::optional<LightSample> LightSet::sample_picked(const LitPoint& point, float choice, Vec2f u, float time) const {
   const auto [light, probability] = picker_.pick(point, choice);
-  std::optional<LightSample> sample;
-  if (light.source < lamps_.size()) {
-    sample = sample_light(lamps_[light.source], point.position, u);
-  } else {
-    const std::uint32_t primitive = light.primitive;
-    sample =
-        std::visit(Overloaded{[&](const MeshEmitter& mesh) { return mesh.sample(primitive, point.position, u, time); },
-                              [&](const SphereEmitter& sphere) { return sphere.sample(point.position, u, time); }},
-                   emitters_[light.source - lamps_.size()]);
-    if (sample) sample->light_group = emitter_groups_[light.source - lamps_.size()];
-  }
+  std::optional<LightSample> sample = sample_lamp_or_emitter(light, point.position, u, time);
   if (sample) sample->pdf *= probability;
   return sample;
+}
+
+std::optional<LightSample> LightSet::sample_lamp_or_emitter(LightRef light, Vec3f position, Vec2f u, float time) const {
+  if (is_lamp(light)) return sample_light(lamps_[light.source], position, u);
+  std::optional<LightSample> sample =
+      std::visit(Overloaded{[&](const MeshEmitter& mesh) { return mesh.sample(light.primitive, position, u, time); },
+                            [&](const SphereEmitter& sphere) { return sphere.sample(position, u, time); }},
+                 emitter_of(light));
+  if (sample) sample->light_group = emitter_groups_[light.source - lamps_.size()];
+  return sample;
+}
+
+void LightSet::share_by_power() {
+  std::vector<double> powers;
+  const auto add = [&](double power) { powers.push_back(std::min<double>(power, std::numeric_limits<float>::max())); };
+  for (const Lamp& lamp : lamps_) {
+    first_numbers_.push_back(static_cast<std::uint32_t>(powers.size()));
+    add(power_estimate(lamp, scene_radius_));
+  }
+  for (const Emitter& emitter : emitters_) {
+    first_numbers_.push_back(static_cast<std::uint32_t>(powers.size()));
+    std::visit(Overloaded{[&](const MeshEmitter& mesh) {
+                            for (std::uint32_t i = 0; i < mesh.triangle_count(); ++i) add(mesh.power(i));
+                          },
+                          [&](const SphereEmitter& sphere) { add(sphere.power()); }},
+               emitter);
+  }
+  powers_ = DiscreteDistribution(std::move(powers));
+}
+
+std::optional<LightSet::Choice> LightSet::choose(Vec3f guess, float u) const {
+  // The share that goes by power alone: what doesn't reach the guess may reach another place.
+  constexpr float power_share = 0.25f;
+  const auto rest_of = [](float number, float begin, float share) {
+    return std::clamp((number - begin) / share, 0.0f, one_minus_epsilon);
+  };
+  if (is_empty()) return std::nullopt;
+  if (u < environment_share_)
+    return Choice{.is_environment = true, .probability = environment_share_, .rest = rest_of(u, 0, environment_share_)};
+  const float others = 1 - environment_share_;
+  u = rest_of(u, environment_share_, others);
+  if (picker_.size() == 1) return Choice{.light = picker_.pick(guess, u).light, .probability = others};
+  LightRef light;
+  if (u < power_share) {
+    const std::uint32_t number = powers_.choose(rest_of(u, 0, power_share)).index;
+    const auto after = std::ranges::upper_bound(first_numbers_, number);
+    light.source = static_cast<std::uint32_t>(after - first_numbers_.begin()) - 1;
+    light.primitive = number - first_numbers_[light.source];
+  } else {
+    light = picker_.pick(guess, rest_of(u, power_share, 1 - power_share)).light;
+  }
+  const double by_power = powers_.probability(first_numbers_[light.source] + light.primitive);
+  const float by_guess = picker_.probability(light, guess);
+  return Choice{.light = light,
+                .probability = others * (power_share * static_cast<float>(by_power) + (1 - power_share) * by_guess)};
+}
+
+std::optional<LightExtent> LightSet::extent(const Choice& choice) const {
+  if (choice.is_environment) return std::nullopt;
+  if (!is_lamp(choice.light)) {
+    const Bounds3f box =
+        std::visit(Overloaded{[&](const MeshEmitter& mesh) { return mesh.bounds(choice.light.primitive).box; },
+                              [](const SphereEmitter& sphere) { return sphere.bounds().box; }},
+                   emitter_of(choice.light));
+    return LightExtent{(box.lower + box.upper) * 0.5f, length(box.upper - box.lower) / 2};
+  }
+  return std::visit(Overloaded{[](const SunLight&) -> std::optional<LightExtent> { return std::nullopt; },
+                               [](const PointLight& lamp) -> std::optional<LightExtent> {
+                                 return LightExtent{lamp.position, lamp.radius};
+                               },
+                               [](const SpotLamp& lamp) -> std::optional<LightExtent> {
+                                 return LightExtent{lamp.to_world.column(3), lamp.radius};
+                               },
+                               [](const AreaLamp& lamp) -> std::optional<LightExtent> {
+                                 return LightExtent{Vec3f(lamp.center), float(std::hypot(lamp.width, lamp.depth) / 2)};
+                               }},
+                    lamps_[choice.light.source].kind);
+}
+
+float LightSet::beam(const Choice& choice, Vec3f position) const {
+  // At its edge a lamp of some size reaches farther than its middle does.
+  constexpr float least = 0.02f;
+  if (choice.is_environment || !is_lamp(choice.light)) return 1;
+  const auto* spot = std::get_if<SpotLamp>(&lamps_[choice.light.source].kind);
+  return spot ? std::max(beam_share(*spot, position), least) : 1;
+}
+
+std::optional<LightSample> LightSet::sample_chosen(const Choice& choice, Vec3f position, Vec2f u, float time) const {
+  std::optional<LightSample> sample = choice.is_environment ? environment_.sample(choice.rest, u)
+                                                            : sample_lamp_or_emitter(choice.light, position, u, time);
+  if (!sample || !(sample->pdf > 0 && sample->pdf < infinity) || is_black(sample->radiance)) return std::nullopt;
+  if (choice.is_environment) sample->light_group = environment_.light_group();
+  return sample;
+}
+
+float LightSet::probability(const Choice& choice, Vec3f position) const {
+  if (choice.is_environment) return environment_share_;
+  return (1 - environment_share_) * picker_.probability(choice.light, position);
 }
 
 float LightSet::pdf_surface(const SurfacePoint& hit, const LitPoint& point) const {

@@ -15,18 +15,45 @@
 #include "light/light_picker.h"
 #include "light/mesh_emitter.h"
 #include "light/sphere_emitter.h"
+#include "math/distribution.h"
 
 namespace basicrt {
+
+// A ball about a light.
+struct LightExtent {
+  Vec3f center;
+  float radius = 0;
+};
 
 class LightSet {
  public:
   LightSet() = default;
+  // `has_volumes`: choose() will be called.
   LightSet(const std::vector<Light>& lamps, const std::vector<EmissiveInstance>& emitters,
-           EnvironmentSampler environment, const Bounds3f& scene_bounds);
+           EnvironmentSampler environment, const Bounds3f& scene_bounds, bool has_volumes = false);
 
   // Chooses a light with `choice` and a place on it with `u`; the pdf includes the choice. Nothing where no light
   // reaches the point. Emissive shapes that move are where they are at the time.
   [[nodiscard]] std::optional<LightSample> sample(const LitPoint& point, float choice, Vec2f u, float time = 0) const;
+
+  // One light for all of a ray on which light may be scattered anywhere. A guess at the place counts for the choice, but
+  // no light that reaches some other place is left out. Nothing where there is no light.
+  struct Choice {
+    bool is_environment = false;
+    LightRef light{};  // else
+    float probability = 0;
+    float rest = 0;  // uniform in [0, 1) again
+  };
+  [[nodiscard]] std::optional<Choice> choose(Vec3f guess, float u) const;
+  // Where it is, at time 0; nothing where it is infinitely far away.
+  [[nodiscard]] std::optional<LightExtent> extent(const Choice& choice) const;
+  // About how much of its light it sends to a place, for what has a beam; above 0.
+  [[nodiscard]] float beam(const Choice& choice, Vec3f position) const;
+  // A place on it: the pdf is of that alone.
+  [[nodiscard]] std::optional<LightSample> sample_chosen(const Choice& choice, Vec3f position, Vec2f u,
+                                                         float time) const;
+  // How often sample() chooses this light.
+  [[nodiscard]] float probability(const Choice& choice, Vec3f position) const;
 
   // The density of sample() for a ray from the point that hit an emissive surface.
   [[nodiscard]] float pdf_surface(const SurfacePoint& hit, const LitPoint& point) const;
@@ -64,8 +91,13 @@ class LightSet {
   using Emitter = std::variant<MeshEmitter, SphereEmitter>;
 
   void add_emitter(const EmissiveInstance& instance);
-  [[nodiscard]] std::optional<LightSample> sample_lamp_or_emitter(const LitPoint& point, float choice, Vec2f u,
+  [[nodiscard]] std::optional<LightSample> sample_lamp_or_emitter(LightRef light, Vec3f position, Vec2f u,
                                                                   float time) const;
+  [[nodiscard]] const Emitter& emitter_of(LightRef light) const { return emitters_[light.source - lamps_.size()]; }
+  [[nodiscard]] bool is_lamp(LightRef light) const { return light.source < lamps_.size(); }
+  void share_by_power();
+  [[nodiscard]] std::optional<LightSample> sample_picked(const LitPoint& point, float choice, Vec2f u,
+                                                         float time) const;
 
   // So few are looked at one by one.
   static constexpr std::size_t few_lamps = 2;
@@ -84,7 +116,11 @@ class LightSet {
   std::vector<int> emitter_groups_;                 // of each emitter
   std::vector<std::uint32_t> emitter_of_instance_;  // index into emitters_, or no_emitter
   LightPicker picker_;                              // its sources are the lamps first, then the emitters
+  // For choose(): each lamp and each triangle has a number, by which it is found among the powers.
+  std::vector<std::uint32_t> first_numbers_;  // of each source
+  DiscreteDistribution powers_;
   EnvironmentSampler environment_;
+  float scene_radius_ = 1;
   float environment_share_ = 0;  // how often the environment is chosen
 };
 

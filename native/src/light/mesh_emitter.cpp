@@ -16,10 +16,13 @@ MeshEmitter::MeshEmitter(const EmissiveInstance& instance, const Mesh& mesh)
       back_(instance.back),
       is_varying_(instance.is_varying),
       estimates_(instance.estimates) {
-  for (std::uint32_t i = 0; i < triangle_count(); ++i) {
-    const auto [front, back] = emitted(i);
-    if (const double shed = double(front) + back; shed > 0) power_ += shed * std::numbers::pi * mean_area(i);
-  }
+  for (std::uint32_t i = 0; i < triangle_count(); ++i) power_ += power(i);
+}
+
+double MeshEmitter::power(std::uint32_t triangle) const {
+  const auto [front, back] = emitted(triangle);
+  const double shed = double(front) + back;
+  return shed > 0 ? shed * std::numbers::pi * mean_area(triangle) : 0;
 }
 
 LightBounds MeshEmitter::bounds(std::uint32_t triangle) const {

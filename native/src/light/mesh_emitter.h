@@ -18,6 +18,7 @@ class MeshEmitter {
   MeshEmitter(const EmissiveInstance& instance, const Mesh& mesh);
 
   [[nodiscard]] double power() const { return power_; }  // watts, of the luminance
+  [[nodiscard]] double power(std::uint32_t triangle) const;
   [[nodiscard]] std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(mesh_->triangles.size()); }
   // At all times. Without intensity where the triangle is black.
   [[nodiscard]] LightBounds bounds(std::uint32_t triangle) const;

@@ -101,6 +101,10 @@ EmissionPdf lamp_emission_pdf(const SpotLamp& light, Vec3f position, Vec3f direc
           direction_pdf(light, direction)};
 }
 
+float beam_share(const SpotLamp& light, Vec3f position) {
+  return share_towards(light, position - light.to_world.column(3));
+}
+
 // The cone as if everything in it were a normal. A transform that isn't a similarity may widen it: then nothing is said.
 LightBounds lamp_bounds(const SpotLamp& light) {
   const TransformD to_world(light.to_world);

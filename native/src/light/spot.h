@@ -22,6 +22,8 @@ struct SpotLamp : SpotLight {
 [[nodiscard]] EmissionSample sample_lamp_emission(const SpotLamp& light, Vec2f u_position, Vec2f u_direction,
                                                   Vec3f scene_center, float scene_radius);
 [[nodiscard]] EmissionPdf lamp_emission_pdf(const SpotLamp& light, Vec3f position, Vec3f direction, float scene_radius);
+// What is left of its intensity towards a place.
+[[nodiscard]] float beam_share(const SpotLamp& light, Vec3f position);
 [[nodiscard]] LightBounds lamp_bounds(const SpotLamp& light);
 [[nodiscard]] float lamp_power(const SpotLamp& light, float scene_radius);
 

@@ -362,8 +362,8 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   for (std::uint32_t i = 0; i < prepared.instances.size(); ++i)
     if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i, options.threads))
       emitters.push_back(std::move(*emitter));
-  prepared.lights =
-      LightSet(lamps, emitters, EnvironmentSampler(scene.environment, options.threads), prepared.tracer.bounds());
+  prepared.lights = LightSet(lamps, emitters, EnvironmentSampler(scene.environment, options.threads),
+                             prepared.tracer.bounds(), prepared.has_volumes);
   return prepared;
 }
 
