@@ -492,10 +492,10 @@ struct AovShader {
   }
 };
 
-using ShaderNode =
-    std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader, TransparentShader,
-                 EmissionShader, HoldoutShader, PrincipledShader, VolumeShader, MixShader, AddShader, TranslucentShader,
-                 MetallicShader, SheenShader, ToonShader, SubsurfaceShader, PrincipledHairShader, HairShader, AovShader>;
+using ShaderNode = std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader,
+                                TransparentShader, EmissionShader, HoldoutShader, PrincipledShader, VolumeShader,
+                                MixShader, AddShader, TranslucentShader, MetallicShader, SheenShader, ToonShader,
+                                SubsurfaceShader, PrincipledHairShader, HairShader, AovShader>;
 
 // A node refers only to nodes before it, so there is no cycle. A Mix or Add input of no_node is black and opaque,
 // as an empty socket is in Blender.
