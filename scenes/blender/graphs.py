@@ -317,7 +317,7 @@ def paths_told_apart(scene: bpy.types.Scene) -> None:
 
 @family
 def glowing_pictures(scene: bpy.types.Scene) -> None:
-    """Nothing shines but surfaces that do so here and there: a screen, a ball with cracks, a coated sign."""
+    """Nothing shines but surfaces that do so here and there: a screen, a ball with cracks, a sign."""
     corner(scene, _embers())
     screen = Graph("Screen")
     image = bpy.data.images.new("Windows", 16, 8, float_buffer=True)
@@ -346,7 +346,6 @@ def glowing_pictures(scene: bpy.types.Scene) -> None:
                 "BsdfPrincipled",
                 Emission_Color=stripes.outputs["Color"],
                 Emission_Strength=3.0,
-                Coat_Weight=1.0,
             )
         ),
     )
