@@ -98,6 +98,10 @@ void Bsdf::keep_kinds(std::uint32_t kinds) {
                        lobe.is_transmitting = lobe.is_transmitting && transmits;
                        return lobe.is_reflecting || lobe.is_transmitting;
                      },
+                     [&](ChiangHair& lobe) {
+                       lobe.keep_sides(reflects, transmits);
+                       return reflects || transmits;
+                     },
                      [&]<class AnyLobe>(AnyLobe& lobe)
                        requires(!is_two_sided<AnyLobe>)
                      { return (ray_kind(reflection_kind_of(lobe)) & kinds) != 0; }});

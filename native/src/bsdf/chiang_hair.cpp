@@ -62,9 +62,6 @@ double sample_trimmed_logistic(double u, double s) {
 
 double wrap(double angle) { return angle - 2 * pi_d * std::floor((angle + pi_d) / (2 * pi_d)); }
 
-// Of an input that was squeezed into few bits, never quite at its ends.
-float unpack(std::uint16_t share) { return std::max(static_cast<float>(share), 1.0f) / 65535.0f; }
-
 }  // namespace
 
 // All that depends on wo alone.
@@ -84,8 +81,8 @@ ChiangHair::ChiangHair(const ChiangHairSettings& settings, Vec3f fiber)
   variance_ = variance_of_roughness(roughness);
   scale_ = scale_of_roughness(usable(settings.radial_roughness));
   const float first = variance_of_roughness(usable(roughness * (1 - std::clamp(settings.coat, 0.0f, 1.0f))));
-  coat_ = static_cast<std::uint16_t>(std::sqrt(first / variance_) * 65535 + 0.5f);
-  tilt_ = static_cast<std::int16_t>(std::clamp(-settings.offset / pi, -1.0f, 1.0f) * 32767);
+  coat_ = static_cast<std::uint16_t>(std::sqrt(first / variance_) * most_coat + 0.5f) & most_coat;
+  tilt_ = static_cast<std::uint16_t>((1 + std::clamp(-settings.offset / pi, -1.0f, 1.0f)) * no_tilt + 0.5f) & 0x7fff;
 }
 
 ChiangHair::Scattering ChiangHair::scattering(Vec3f wo) const {
@@ -111,8 +108,9 @@ ChiangHair::Scattering ChiangHair::scattering(Vec3f wo) const {
   for (int p = 0; p < parts; ++p) sum += s.share[p] = luminance(s.attenuation[p]);
   for (float& share : s.share) share /= sum;
 
-  s.variance = {variance_ * square(unpack(coat_)), variance_ / 4, 4 * variance_, 4 * variance_};
-  const float tilt = static_cast<float>(tilt_) / 32767.0f * pi;
+  const float coat = std::max(static_cast<float>(coat_), 1.0f) / most_coat;
+  s.variance = {variance_ * square(coat), variance_ / 4, 4 * variance_, 4 * variance_};
+  const float tilt = (static_cast<float>(tilt_) / no_tilt - 1) * pi;
   const std::array<float, parts> tilts = {-2 * tilt, tilt, 4 * tilt, 0};
   for (int p = 0; p < parts; ++p) {
     s.sine[p] = sine * std::cos(tilts[p]) + cosine * std::sin(tilts[p]);
@@ -134,6 +132,7 @@ LobeValue ChiangHair::eval(Vec3f wo, Vec3f wi) const {
     sum.value += s.attenuation[p] * density;
     sum.pdf += s.share[p] * density;
   }
+  if ((wi.z > 0 ? is_reflecting_ : is_transmitting_) == 0) sum.value = Color(0.0f);
   return sum;
 }
 
@@ -156,6 +155,11 @@ std::optional<LobeSample> ChiangHair::sample(Vec3f wo, float choice, Vec2f u) co
 void ChiangHair::roughen(float least_alpha) {
   variance_ = std::max(variance_, least_alpha);
   scale_ = std::max(scale_, least_alpha);
+}
+
+void ChiangHair::keep_sides(bool is_reflecting, bool is_transmitting) {
+  if (!is_reflecting) is_reflecting_ = 0;
+  if (!is_transmitting) is_transmitting_ = 0;
 }
 
 Color ChiangHair::albedo() const {

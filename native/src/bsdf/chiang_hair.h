@@ -32,6 +32,8 @@ class ChiangHair {
   [[nodiscard]] std::optional<LobeSample> sample(Vec3f wo, float choice, Vec2f u) const;
   // No part of it is narrower than a microfacets' lobe with this alpha.
   void roughen(float least_alpha);
+  // Leaves out light that comes back on the side it came from, or on the other.
+  void keep_sides(bool is_reflecting, bool is_transmitting);
   // A guess of all that comes back.
   [[nodiscard]] Color albedo() const;
 
@@ -42,9 +44,13 @@ class ChiangHair {
   Color absorption_;
   FiberDirection fiber_;
   float variance_, scale_, ior_;
-  // So that a lobe has room for it: the root of what share of the variance the first reflection has, and the tilt over pi.
-  std::uint16_t coat_;
-  std::int16_t tilt_;
+  // So that a lobe has room for it: the root of what share of the variance the first reflection has, and the tilt from -pi
+  // to pi, in steps.
+  static constexpr std::uint16_t most_coat = 32767, no_tilt = 16383;
+  std::uint16_t coat_ : 15;
+  std::uint16_t is_reflecting_ : 1 = 1;
+  std::uint16_t tilt_ : 15;
+  std::uint16_t is_transmitting_ : 1 = 1;
 };
 
 // The absorption that makes hair of this colour, seen from afar.
