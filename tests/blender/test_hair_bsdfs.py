@@ -66,13 +66,13 @@ STRANDS: dict[str, tuple[str, dict[str, str], dict[str, Any], float]] = {
         0.01,
     ),
     "hair, coat": (PRINCIPLED, CHIANG, {"Color": TINT, "Coat": 0.5}, 0.02),
+    # At the fibre's edges highlights reach behind the surface that is seen, where Cycles' lamps don't see them.
     "reflection": (
         HAIR,
         {"component": "Reflection"},
         {"Color": TINT, "Offset": 0.2, "RoughnessV": 0.4},
-        0.01,
+        0.07,
     ),
-    # Where a wide highlight reaches around the fibre, Cycles' lamps don't see it.
     "wide reflection": (HAIR, {"component": "Reflection"}, {"Color": TINT}, 0.07),
     "transmission": (
         HAIR,
