@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -14,15 +13,12 @@ from basicrt.rendering import PictureBuffer
 
 from ..export import baking, camera
 from ..export.identity import uid
-from ..report import ExportError, Report, show_warnings
+from ..report import ExportError, Report
 from ..sync.scene_sync import SceneSync
 from .command_line import Overrides
+from .starting import CancelledError, building_watch, start_session
 
 POLL_SECONDS = 0.05
-
-
-class CancelledError(Exception):
-    """The user cancelled while trees were built."""
 
 
 class ObjectBake:
@@ -81,14 +77,16 @@ class ObjectBake:
         """The picture, None where the user cancels."""
         buffer = PictureBuffer(plan.settings.passes, target.width, target.height)
         try:
-            started = self._in_users_words(
+            started = start_session(
+                self._sync.exported,
+                self._report,
                 lambda: basicrt.bake_session(
                     self._sync.exported.scene,
                     target,
                     plan,
                     threads=self._threads or 0,
-                    preparing=self._watch_building,
-                )
+                    preparing=building_watch(self._engine, self._is_cancelled),
+                ),
             )
         except CancelledError:
             return None
@@ -100,23 +98,3 @@ class ObjectBake:
                     return None
                 self._engine.update_progress(session.progress.fraction)
         return plan.picture(buffer.pictures)
-
-    def _in_users_words(self, start: Callable[[], basicrt.Session]) -> basicrt.Session:
-        """Start a session; what the core says against it is told with the names of things."""
-        exported = self._sync.exported
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", basicrt.SceneWarning)
-            try:
-                session = start()
-            except basicrt.SceneError as error:
-                raise ExportError(exported.in_users_words(str(error))) from error
-        for warning in caught:
-            self._report.add(exported.in_users_words(str(warning.message)))
-        show_warnings(self._report)
-        return session
-
-    def _watch_building(self, fraction: float) -> None:
-        """Called while trees are built."""
-        self._engine.update_stats("", f"Building trees | {fraction:.0%}")
-        if self._is_cancelled():
-            raise CancelledError

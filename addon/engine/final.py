@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import time
-import warnings
 import weakref
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,10 +12,11 @@ import bpy
 
 from .. import compat
 from ..properties import settings_of
-from ..report import ExportError, HeldReport, Report, caught, show_warnings, summary
+from ..report import HeldReport, Report, caught, show_warnings, summary
 from . import command_line
 from .denoise import LayerDenoiser, can_denoise
 from .result import NOISY_PASS, ResultWriter, complete_without_pixels
+from .starting import CancelledError, building_watch, start_session
 from .status import show_status
 
 if TYPE_CHECKING:
@@ -30,10 +30,6 @@ if TYPE_CHECKING:
 # How often Blender is told of progress, and asked whether to stop.
 STATUS_SECONDS = 0.5
 POLL_SECONDS = 0.05
-
-
-class CancelledError(Exception):
-    """The user cancelled while trees were built."""
 
 
 class BasicRTRenderEngine(bpy.types.RenderEngine):
@@ -288,20 +284,16 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         import basicrt
 
         self.update_stats("", "Building trees")
-        with warnings.catch_warnings(record=True) as caught_warnings:
-            warnings.simplefilter("always", basicrt.SceneWarning)
-            try:
-                session = basicrt.Session(
-                    exported.scene,
-                    threads=self._threads(b_scene),
-                    tile_size=settings_of(b_scene).tile_size,
-                    preparing=self._watch_building,
-                )
-            except basicrt.SceneError as error:
-                raise ExportError(exported.in_users_words(str(error))) from error
-        for warning in caught_warnings:
-            self.warnings.add(exported.in_users_words(str(warning.message)))
-        show_warnings(self.warnings)
+        session = start_session(
+            exported,
+            self.warnings,
+            lambda: basicrt.Session(
+                exported.scene,
+                threads=self._threads(b_scene),
+                tile_size=settings_of(b_scene).tile_size,
+                preparing=building_watch(self, self._is_cancelled),
+            ),
+        )
         if self.warnings.warnings:
             self.report({"WARNING"}, summary(self.warnings))
         return session
@@ -310,9 +302,3 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         """How many there are to be; 0 is one for each processor."""
         chosen = self.overrides.threads
         return int(b_scene.render.threads if chosen is None else chosen)
-
-    def _watch_building(self, fraction: float) -> None:
-        """Called while trees are built."""
-        self.update_stats("", f"Building trees | {fraction:.0%}")
-        if self._is_cancelled():
-            raise CancelledError

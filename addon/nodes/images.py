@@ -66,7 +66,9 @@ class Textures:
     def __init__(self, scene: basicrt.Scene, surroundings: Surroundings | None = None) -> None:
         self._scene = scene
         self.surroundings = surroundings or Surroundings()
-        self._asked: dict[Hashable, Hashable] = {}  # of the surroundings, and what they said
+        # What was asked of the surroundings.
+        self._has_frame = False
+        self._attributes: dict[str, float | tuple[float, ...] | None] = {}
         self._images: dict[Hashable, ConvertedImage | None] = {}
         self._indices: dict[Hashable, int] = {}
         # By a material's number: what it asks for of meshes.
@@ -83,17 +85,14 @@ class Textures:
     def attribute(self, name: str) -> float | tuple[float, ...] | None:
         """An Attribute of the view layer."""
         found = self.surroundings.attribute(name)
-        self._asked["attribute", name] = found
+        self._attributes[name] = found
         return found
 
     def would_differ(self, surroundings: Surroundings) -> bool:
         """Whether something that was made here is another thing in other surroundings."""
-        now = {"frame": surroundings.frame}
-        return any(
-            (surroundings.attribute(str(asked[1])) if isinstance(asked, tuple) else now[str(asked)])
-            != said
-            for asked, said in self._asked.items()
-        )
+        if self._has_frame and surroundings.frame != self.surroundings.frame:
+            return True
+        return any(surroundings.attribute(name) != said for name, said in self._attributes.items())
 
     def image(
         self, b_image: bpy.types.Image | None, b_user: Any, warn: Callable[[str], None]
@@ -103,7 +102,7 @@ class Textures:
             warn("has no image: drawn magenta")
             return None
         if b_image.source == "SEQUENCE":
-            self._asked["frame"] = self.surroundings.frame
+            self._has_frame = True
             frame = sequence_frame(b_user, self.surroundings.frame)
             return self._file(b_image, (_key(b_image), frame), frame_path(b_image, frame), warn)
         if b_image.source == "MOVIE":
