@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from .panel import EnginePanel, register_panels
+from .panel import EnginePanel, draw_list, register_panels
 
 
 class BASICRT_VIEWLAYER_PT_aovs(EnginePanel, bpy.types.Panel):
@@ -20,14 +20,8 @@ class BASICRT_VIEWLAYER_PT_aovs(EnginePanel, bpy.types.Panel):
 
     def draw(self, context: Any) -> None:
         """Blender's callback."""
-        view_layer, row = context.view_layer, self.layout.row()
-        row.column().template_list(
-            *("VIEWLAYER_UL_aov", "aovs", view_layer, "aovs", view_layer, "active_aov_index"),
-            rows=3,
-        )
-        column = row.column(align=True)
-        column.operator("scene.view_layer_add_aov", icon="ADD", text="")
-        column.operator("scene.view_layer_remove_aov", icon="REMOVE", text="")
+        view_layer = context.view_layer
+        draw_list(self.layout, "VIEWLAYER_UL_aov", view_layer, "aovs", "active_aov_index", "aov")
         chosen = view_layer.active_aov
         if chosen is not None and not chosen.is_valid:
             self.layout.label(text="Another pass has this name", icon="ERROR")

@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from .panel import EnginePanel, register_panels
+from .panel import EnginePanel, draw_list, register_panels
 
 
 class BASICRT_VIEWLAYER_PT_light_groups(EnginePanel, bpy.types.Panel):
@@ -20,15 +20,8 @@ class BASICRT_VIEWLAYER_PT_light_groups(EnginePanel, bpy.types.Panel):
 
     def draw(self, context: Any) -> None:
         """Blender's callback."""
-        view_layer, row = context.view_layer, self.layout.row()
-        row.column().template_list(
-            *("UI_UL_list", "lightgroups", view_layer, "lightgroups"),
-            *(view_layer, "active_lightgroup_index"),
-            rows=3,
-        )
-        column = row.column(align=True)
-        column.operator("scene.view_layer_add_lightgroup", icon="ADD", text="")
-        column.operator("scene.view_layer_remove_lightgroup", icon="REMOVE", text="")
+        view_layer, active = context.view_layer, "active_lightgroup_index"
+        draw_list(self.layout, "UI_UL_list", view_layer, "lightgroups", active, "lightgroup")
 
 
 class _MembershipPanel(EnginePanel):

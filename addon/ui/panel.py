@@ -32,6 +32,17 @@ class EnginePanel:
         return self.layout.column()
 
 
+def draw_list(
+    layout: Any, list_class: str, view_layer: Any, items: str, active: str, operator: str
+) -> None:
+    """A view layer's list of passes, with buttons that add and remove; `operator` ends what they do."""
+    row = layout.row()
+    row.column().template_list(list_class, items, view_layer, items, view_layer, active, rows=3)
+    column = row.column(align=True)
+    column.operator(f"scene.view_layer_add_{operator}", icon="ADD", text="")
+    column.operator(f"scene.view_layer_remove_{operator}", icon="REMOVE", text="")
+
+
 def register_panels(panels: Sequence[type]) -> tuple[Callable[[], None], Callable[[], None]]:
     """What shows these panels, and what hides them again."""
     make: Any = bpy.utils.register_classes_factory

@@ -21,6 +21,7 @@ from support.blender import (
     render,
     set_world,
 )
+from support.cycles import assert_quarters_agree
 
 COLUMNS, PIXELS = 6, 16  # balls in a row, and pixels along the side of a ball's square
 SEEDS, SAMPLES = 4, 96
@@ -277,16 +278,4 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> tuple[np.ndarray, np.n
 def test_ball_is_as_in_cycles(name: str, rendered: tuple[np.ndarray, np.ndarray]) -> None:
     index = list(BALLS).index(name)
     ours, theirs = (picture[:, index] for picture in rendered)
-    difference = ours.mean(axis=0) - theirs.mean(axis=0)
-    variance = ours.var(axis=0, ddof=1) + theirs.var(axis=0, ddof=1)
-    # Of few seeds, a single quarter's scatter is a poor estimate.
-    error = np.sqrt(np.maximum(variance, variance.mean()) / SEEDS)
-    tolerance = 5 * error + BALLS[name][3] * theirs.mean(axis=0)
-    worst = np.unravel_index((np.abs(difference) / tolerance).argmax(), difference.shape)
-    print(
-        f"{name}: whole ball {ours.mean() / theirs.mean() - 1:+.3%}, worst quarter "
-        f"{difference[worst] / theirs.mean(axis=0)[worst]:+.2%} ± {error[worst] / theirs.mean(axis=0)[worst]:.2%}"
-    )
-    assert (np.abs(difference) <= tolerance).all(), (
-        f"quarter {worst} differs by {difference[worst]}"
-    )
+    assert_quarters_agree(name, ours, theirs, BALLS[name][3])

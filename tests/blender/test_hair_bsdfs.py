@@ -22,6 +22,7 @@ from support.blender import (
     render,
     set_world,
 )
+from support.cycles import assert_quarters_agree
 
 PIXELS = 16  # along the side of a strand's square
 SEEDS, SAMPLES = 4, 256
@@ -139,15 +140,4 @@ def rendered(
 def test_strand_is_as_in_cycles(name: str, rendered: tuple[np.ndarray, np.ndarray]) -> None:
     index = list(STRANDS).index(name)
     ours, theirs = (picture[:, index] for picture in rendered)
-    difference = ours.mean(axis=0) - theirs.mean(axis=0)
-    variance = ours.var(axis=0, ddof=1) + theirs.var(axis=0, ddof=1)
-    error = np.sqrt(np.maximum(variance, variance.mean()) / SEEDS)
-    tolerance = 5 * error + STRANDS[name][3] * theirs.mean(axis=0)
-    worst = np.unravel_index((np.abs(difference) / tolerance).argmax(), difference.shape)
-    print(
-        f"{name}: whole strand {ours.mean() / theirs.mean() - 1:+.3%}, worst quarter "
-        f"{difference[worst] / theirs.mean(axis=0)[worst]:+.2%} ± {error[worst] / theirs.mean(axis=0)[worst]:.2%}"
-    )
-    assert (np.abs(difference) <= tolerance).all(), (
-        f"quarter {worst} differs by {difference[worst]}"
-    )
+    assert_quarters_agree(name, ours, theirs, STRANDS[name][3])

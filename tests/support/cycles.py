@@ -57,3 +57,20 @@ def expect_alike(ours: np.ndarray, theirs: np.ndarray, relative: float, cells: i
     assert (np.abs(difference) <= tolerance).all(), (
         f"cell {worst}: {means[0].mean(axis=0)[worst]:.5g}, Cycles {means[1].mean(axis=0)[worst]:.5g}"
     )
+
+
+def assert_quarters_agree(name: str, ours: np.ndarray, theirs: np.ndarray, allowed: float) -> None:
+    """Of something's (seeds, 4, 3) means of quarters: but for the noise, and an allowed share of them."""
+    difference = ours.mean(axis=0) - theirs.mean(axis=0)
+    variance = ours.var(axis=0, ddof=1) + theirs.var(axis=0, ddof=1)
+    # Of few seeds, a single quarter's scatter is a poor estimate.
+    error = np.sqrt(np.maximum(variance, variance.mean()) / len(ours))
+    tolerance = 5 * error + allowed * theirs.mean(axis=0)
+    worst = np.unravel_index((np.abs(difference) / tolerance).argmax(), difference.shape)
+    print(
+        f"{name}: all of it {ours.mean() / theirs.mean() - 1:+.3%}, worst quarter "
+        f"{difference[worst] / theirs.mean(axis=0)[worst]:+.2%} ± {error[worst] / theirs.mean(axis=0)[worst]:.2%}"
+    )
+    assert (np.abs(difference) <= tolerance).all(), (
+        f"quarter {worst} differs by {difference[worst]}"
+    )
