@@ -29,6 +29,7 @@ from project import (
     build_environment,
     digest,
     files_under,
+    generator,
     is_fresh,
     output_of,
     pip,
@@ -54,6 +55,19 @@ def wheel_path(python_version: str) -> Path:
     return DIST / f"basicrt-{version()}-{tag}-{tag}-{platform}.whl"
 
 
+def build_core() -> Path:
+    """The core library, compiled once for all wheels in the folder of `cmake --preset release`."""
+    bootstrap.ensure_system()
+    if bootstrap.missing_build_tools():
+        bootstrap.ensure_venv("dev")
+    build = ROOT / "build"
+    with bootstrap.locked("core"):
+        if not (build / "CMakeCache.txt").exists():
+            run(["cmake", "--preset", "release", *generator(build)], quiet=True)
+        run(["cmake", "--build", build, "--target", "basicrt_core"], quiet=True)
+    return build / "native" / "libbasicrt_core.a"
+
+
 def build_wheel(python_version: str) -> Path:
     """The up-to-date wheel for one of this machine's Pythons."""
     bootstrap.ensure_system()
@@ -66,7 +80,16 @@ def build_wheel(python_version: str) -> Path:
         say(f"building {relative(wheel)}")
         environment = build_environment()
         environment["PATH"] = os.pathsep.join([str(python.parent), environment["PATH"]])
-        options: list[str | Path] = ["--no-deps", "--no-build-isolation", "-w", DIST, ROOT]
+        core = f"cmake.define.BASICRT_CORE={build_core()}"
+        options: list[str | Path] = [
+            "--no-deps",
+            "--no-build-isolation",
+            "-C",
+            core,
+            "-w",
+            DIST,
+            ROOT,
+        ]
         run([*pip(python, "wheel"), *options], environment=environment, quiet=True)
         write_stamp(stamp, key)
     return wheel
@@ -141,6 +164,7 @@ def build_foreign_wheel(root: Path) -> Path:
             "Python_LIBRARY": str(library),
             "pybind11_DIR": output_of([build_python, "-m", "pybind11", "--cmakedir"]),
             "BASICRT_BUILD_PYTHON": "ON",
+            "BASICRT_CORE": str(build_core()),
             "BASICRT_BUILD_RENDERER": "OFF",
             "BASICRT_BUILD_TESTS": "OFF",
             "BASICRT_BUILD_BENCHMARKS": "OFF",

@@ -65,6 +65,13 @@ def build_environment() -> dict[str, str]:
     return environment
 
 
+def generator(build: Path) -> list[str]:
+    """The option that chooses Ninja for a new build folder."""
+    is_new = not (build / "CMakeCache.txt").exists()
+    found = shutil.which("ninja", path=build_environment()["PATH"])
+    return ["-G", "Ninja"] if is_new and found else []
+
+
 def run(
     command: Command,
     *,

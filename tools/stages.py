@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 import platform
 import shlex
-import shutil
 import signal
 import subprocess
 import sys
@@ -29,6 +28,7 @@ from project import (
     Command,
     ToolError,
     build_environment,
+    generator,
     output_of,
 )
 
@@ -143,13 +143,6 @@ def pytest(context: Context, python: Path, folders: Sequence[str], *options: str
     environment = {"BASICRT_BUILD_DIR": str(ROOT / "build"), "PYTHONFAULTHANDLER": "1"}
     command: Command = [python, "-m", "pytest", "-q", "--junitxml", report, *options, *present]
     return read_report(report, context.execute(command, environment))
-
-
-def generator(build: Path) -> list[str]:
-    """The option that chooses Ninja for a new build folder."""
-    is_new = not (build / "CMakeCache.txt").exists()
-    found = shutil.which("ninja", path=build_environment()["PATH"])
-    return ["-G", "Ninja"] if is_new and found else []
 
 
 def build_and_test(context: Context, preset: str, build: Path, prefix: Command = ()) -> Counts:

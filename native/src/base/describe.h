@@ -7,8 +7,8 @@
 //     float radius = 0;
 //     static constexpr std::string_view kind = "point";
 //     static constexpr auto fields() {
-//       return std::tuple{field("position", &PointLight::position, "world space, metres"),
-//                         field("radius", &PointLight::radius, "metres; 0 is a point", at_least(0))};
+//       return fields_of(field("position", &PointLight::position, "world space, metres"),
+//                         field("radius", &PointLight::radius, "metres; 0 is a point", at_least(0)));
 //     }
 //   };
 #pragma once
@@ -16,7 +16,6 @@
 #include <concepts>
 #include <limits>
 #include <string_view>
-#include <tuple>
 
 namespace basicrt {
 
@@ -51,13 +50,28 @@ constexpr Field<Struct, Value> field(std::string_view name, Value Struct::* memb
   return {name, member, doc, range};
 }
 
+// A list of fields: a function that hands them all to another one. (The same as a std::tuple would take seconds of each
+// compilation that includes it.)
+template <class... Fields>
+constexpr auto fields_of(Fields... fields) {
+  return [=](auto&& visit_all) { return visit_all(fields...); };
+}
+
+// One list after another.
+template <class First, class Second>
+constexpr auto joined(First first, Second second) {
+  return [=](auto&& visit_all) {
+    return first([&](const auto&... a) { return second([&](const auto&... b) { return visit_all(a..., b...); }); });
+  };
+}
+
 template <class T>
 concept Described = requires { T::fields(); };
 
 // Calls visit(field) for each field of Struct, in the order in which they were named.
 template <Described Struct, class Visitor>
 constexpr void for_each_field(Visitor&& visit) {
-  std::apply([&](const auto&... fields) { (visit(fields), ...); }, Struct::fields());
+  Struct::fields()([&](const auto&... fields) { (visit(fields), ...); });
 }
 
 // The names of an enumeration's values, in order of their numbers: specialise as

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "base/describe.h"
@@ -29,7 +28,7 @@ struct CameraBase {
 // The fields of a kind of camera: these, then its own.
 template <class Kind, class... Own>
 constexpr auto camera_fields(std::string_view window_min_doc, std::string_view window_max_doc, Own... own) {
-  return std::tuple{
+  return fields_of(
       field<Kind, Transform>("transform", &Kind::to_world, "camera to world; looks along -z, y is up"),
       field<Kind, Vec2f>("window_min", &Kind::window_min, window_min_doc),
       field<Kind, Vec2f>("window_max", &Kind::window_max, window_max_doc),
@@ -44,7 +43,7 @@ constexpr auto camera_fields(std::string_view window_min_doc, std::string_view w
       field<Kind, std::vector<Transform>>(
           "motion_transforms", &Kind::motion_transforms,
           "camera to world at further times, equally spaced; the last is when the shutter closes"),
-      own...};
+      own...);
 }
 
 // A place on the aperture, metres, x right and y up; `u` in [0, 1)^2.

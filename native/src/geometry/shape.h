@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string_view>
-#include <tuple>
 #include <variant>
 
 #include "base/describe.h"
@@ -19,8 +18,8 @@ struct Sphere {
   float radius = 1;
   static constexpr std::string_view kind = "sphere";
   static constexpr auto fields() {
-    return std::tuple{field("center", &Sphere::center, "object space, metres"),
-                      field("radius", &Sphere::radius, "metres", above(0))};
+    return fields_of(field("center", &Sphere::center, "object space, metres"),
+                     field("radius", &Sphere::radius, "metres", above(0)));
   }
 };
 

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 #include "base/describe.h"
@@ -41,15 +40,15 @@ struct BakeSettings {
 
   static constexpr auto fields() {
     using S = BakeSettings;
-    return std::tuple{field("diffuse", &S::has_diffuse, "diffuse reflection by the mesh"),
-                      field("glossy", &S::has_glossy, "glossy reflection by the mesh"),
-                      field("transmission", &S::has_transmission, "transmission by the mesh"),
-                      field("emission", &S::has_emission, "what the mesh emits"),
-                      field("indirect_light", &S::has_indirect_light, "light that other surfaces have scattered"),
-                      field("environment", &S::sees_environment,
-                            "not the mesh, but what is seen from the world's origin towards each place"),
-                      field("from_camera", &S::is_seen_from_camera,
-                            "the mesh is seen from the camera, from in front of it even so; else along its normals")};
+    return fields_of(field("diffuse", &S::has_diffuse, "diffuse reflection by the mesh"),
+                     field("glossy", &S::has_glossy, "glossy reflection by the mesh"),
+                     field("transmission", &S::has_transmission, "transmission by the mesh"),
+                     field("emission", &S::has_emission, "what the mesh emits"),
+                     field("indirect_light", &S::has_indirect_light, "light that other surfaces have scattered"),
+                     field("environment", &S::sees_environment,
+                           "not the mesh, but what is seen from the world's origin towards each place"),
+                     field("from_camera", &S::is_seen_from_camera,
+                           "the mesh is seen from the camera, from in front of it even so; else along its normals"));
   }
 };
 

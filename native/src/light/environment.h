@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "base/describe.h"
@@ -35,12 +34,12 @@ struct EnvironmentLayer {
   EnvironmentRays seen_by = EnvironmentRays::all;
   static constexpr auto fields() {
     using L = EnvironmentLayer;
-    return std::tuple{
+    return fields_of(
         field("radiance", &L::radiance, "W / (m^2 sr); multiplies the image or sky where there is one", at_least(0)),
         field("projection", &L::projection, "of the image: equirectangular, mirror_ball or horizon"),
         field("interpolation", &L::interpolation, "between pixels: linear, closest or cubic"),
         field("transform", &L::to_image, "of a direction, as a point, before the image or sky is looked up"),
-        field("seen_by", &L::seen_by, "which rays see it: all, those from the camera, or those that have scattered")};
+        field("seen_by", &L::seen_by, "which rays see it: all, those from the camera, or those that have scattered"));
   }
 };
 
@@ -49,10 +48,10 @@ struct Environment {
   std::vector<EnvironmentLayer> layers;
   int light_group = 0;
   static constexpr auto fields() {
-    return std::tuple{
+    return fields_of(
         field("radiance", &Environment::radiance, "W / (m^2 sr), each direction alike", at_least(0)),
         field("light_group", &Environment::light_group,
-              "its light is in the pass Light Group of this number too; 0: in none", within(0, light_groups))};
+              "its light is in the pass Light Group of this number too; 0: in none", within(0, light_groups)));
   }
 };
 

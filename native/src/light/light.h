@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string_view>
-#include <tuple>
 #include <variant>
 
 #include "base/describe.h"
@@ -19,7 +18,7 @@ namespace basicrt {
 // What every lamp has, whatever its kind: a switch for each way in which light may reach the camera.
 template <class Lamp>
 constexpr auto lamp_switches() {
-  return std::tuple{
+  return fields_of(
       field("camera_visible", &Lamp::is_camera_visible, "camera rays see the lamp"),
       field("diffuse_visible", &Lamp::is_diffuse_visible, "it lights by diffuse reflection"),
       field("glossy_visible", &Lamp::is_glossy_visible, "it lights by glossy reflection, and mirrors see it"),
@@ -28,7 +27,7 @@ constexpr auto lamp_switches() {
       field("casts_shadows", &Lamp::casts_shadows, "what is in the way dims its light"),
       field("max_bounces", &Lamp::max_bounces, "scatterings behind which surfaces aren't lit by it", within(0, 1024)),
       field("light_group", &Lamp::light_group, "its light is in the pass Light Group of this number too; 0: in none",
-            within(0, light_groups))};
+            within(0, light_groups)));
 }
 
 // A sphere of the given radius, or a point where that is 0. With soft falloff a disc that faces the lit point stands
@@ -45,12 +44,11 @@ struct PointLight {
   int light_group = 0;
   static constexpr std::string_view kind = "point";
   static constexpr auto fields() {
-    return std::tuple_cat(
-        std::tuple{field("position", &PointLight::position, "world space, metres"),
-                   field("intensity", &PointLight::intensity, "W / sr", at_least(0)),
-                   field("radius", &PointLight::radius, "metres", at_least(0)),
-                   field("soft", &PointLight::is_soft, "a disc that faces the lit point instead of a sphere")},
-        lamp_switches<PointLight>());
+    return joined(fields_of(field("position", &PointLight::position, "world space, metres"),
+                            field("intensity", &PointLight::intensity, "W / sr", at_least(0)),
+                            field("radius", &PointLight::radius, "metres", at_least(0)),
+                            field("soft", &PointLight::is_soft, "a disc that faces the lit point instead of a sphere")),
+                  lamp_switches<PointLight>());
   }
 };
 
@@ -68,14 +66,13 @@ struct SpotLight {
   int light_group = 0;
   static constexpr std::string_view kind = "spot";
   static constexpr auto fields() {
-    return std::tuple_cat(
-        std::tuple{field("transform", &SpotLight::to_world, "local to world; shines along local -z"),
-                   field("intensity", &SpotLight::intensity, "W / sr on the axis", at_least(0)),
-                   field("radius", &SpotLight::radius, "metres", at_least(0)),
-                   field("soft", &SpotLight::is_soft, "a disc that faces the lit point instead of a sphere"),
-                   field("angle", &SpotLight::angle, "full angle of the cone, radians", above(0)),
-                   field("blend", &SpotLight::blend, "share of the cone in which it fades", within(0, 1))},
-        lamp_switches<SpotLight>());
+    return joined(fields_of(field("transform", &SpotLight::to_world, "local to world; shines along local -z"),
+                            field("intensity", &SpotLight::intensity, "W / sr on the axis", at_least(0)),
+                            field("radius", &SpotLight::radius, "metres", at_least(0)),
+                            field("soft", &SpotLight::is_soft, "a disc that faces the lit point instead of a sphere"),
+                            field("angle", &SpotLight::angle, "full angle of the cone, radians", above(0)),
+                            field("blend", &SpotLight::blend, "share of the cone in which it fades", within(0, 1))),
+                  lamp_switches<SpotLight>());
   }
 };
 
@@ -90,10 +87,10 @@ struct SunLight {
   int light_group = 0;
   static constexpr std::string_view kind = "sun";
   static constexpr auto fields() {
-    return std::tuple_cat(
-        std::tuple{field("direction", &SunLight::direction, "in which the light travels, world space"),
-                   field("irradiance", &SunLight::irradiance, "W / m^2 on a surface that faces it", at_least(0)),
-                   field("angle", &SunLight::angle, "full angle of the disc, radians", within(0, 3.141593))},
+    return joined(
+        fields_of(field("direction", &SunLight::direction, "in which the light travels, world space"),
+                  field("irradiance", &SunLight::irradiance, "W / m^2 on a surface that faces it", at_least(0)),
+                  field("angle", &SunLight::angle, "full angle of the disc, radians", within(0, 3.141593))),
         lamp_switches<SunLight>());
   }
 };
@@ -111,12 +108,11 @@ struct AreaLight {
   int light_group = 0;
   static constexpr std::string_view kind = "area";
   static constexpr auto fields() {
-    return std::tuple_cat(
-        std::tuple{field("transform", &AreaLight::to_world, "local to world; a unit square or disc at z = 0"),
-                   field("radiance", &AreaLight::radiance, "W / (m^2 sr) with full spread", at_least(0)),
-                   field("ellipse", &AreaLight::is_ellipse, "an ellipse instead of a rectangle"),
-                   field("spread", &AreaLight::spread, "full angle, radians", within(0, 3.141593))},
-        lamp_switches<AreaLight>());
+    return joined(fields_of(field("transform", &AreaLight::to_world, "local to world; a unit square or disc at z = 0"),
+                            field("radiance", &AreaLight::radiance, "W / (m^2 sr) with full spread", at_least(0)),
+                            field("ellipse", &AreaLight::is_ellipse, "an ellipse instead of a rectangle"),
+                            field("spread", &AreaLight::spread, "full angle, radians", within(0, 3.141593))),
+                  lamp_switches<AreaLight>());
   }
 };
 

@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string_view>
-#include <tuple>
 #include <variant>
 
 #include "base/describe.h"
@@ -16,22 +15,21 @@ namespace basicrt {
 // Where the sun is, whatever the sky; z is up.
 template <class Sky>
 constexpr auto sun_place() {
-  return std::tuple{field("sun_elevation", &Sky::sun_elevation, "above the horizon, radians"),
-                    field("sun_rotation", &Sky::sun_rotation, "from y towards x, radians")};
+  return fields_of(field("sun_elevation", &Sky::sun_elevation, "above the horizon, radians"),
+                   field("sun_rotation", &Sky::sun_rotation, "from y towards x, radians"));
 }
 
 // The sun's disc, and the air around a round planet: 1 is as dense as over a city.
 template <class Sky>
 constexpr auto sun_and_air() {
-  return std::tuple_cat(
-      sun_place<Sky>(),
-      std::tuple{field("sun_disc", &Sky::has_sun_disc, "the sun itself is seen and sends light"),
-                 field("sun_size", &Sky::sun_size, "full angle of the disc, radians", within(0, 1.570797)),
-                 field("sun_intensity", &Sky::sun_intensity, "of the disc", at_least(0)),
-                 field("altitude", &Sky::altitude, "of the eye above the sea, metres", at_least(0)),
-                 field("air_density", &Sky::air_density, "molecules", at_least(0)),
-                 field("aerosol_density", &Sky::aerosol_density, "dust and droplets", at_least(0)),
-                 field("ozone_density", &Sky::ozone_density, "ozone high above", at_least(0))});
+  return joined(sun_place<Sky>(),
+                fields_of(field("sun_disc", &Sky::has_sun_disc, "the sun itself is seen and sends light"),
+                          field("sun_size", &Sky::sun_size, "full angle of the disc, radians", within(0, 1.570797)),
+                          field("sun_intensity", &Sky::sun_intensity, "of the disc", at_least(0)),
+                          field("altitude", &Sky::altitude, "of the eye above the sea, metres", at_least(0)),
+                          field("air_density", &Sky::air_density, "molecules", at_least(0)),
+                          field("aerosol_density", &Sky::aerosol_density, "dust and droplets", at_least(0)),
+                          field("ozone_density", &Sky::ozone_density, "ozone high above", at_least(0))));
 }
 
 // Preetham et al. 1999, "A practical analytic model for daylight". It has no sun disc.
@@ -40,8 +38,8 @@ struct PreethamSky {
   float turbidity = 2.2f;
   static constexpr std::string_view kind = "preetham";
   static constexpr auto fields() {
-    return std::tuple_cat(sun_place<PreethamSky>(), std::tuple{field("turbidity", &PreethamSky::turbidity,
-                                                                     "haze: 2 is clear, 10 hazy", within(1, 10))});
+    return joined(sun_place<PreethamSky>(),
+                  fields_of(field("turbidity", &PreethamSky::turbidity, "haze: 2 is clear, 10 hazy", within(1, 10))));
   }
 };
 

@@ -23,10 +23,10 @@ struct FilterSettings {
   float falloff = 2;  // gaussian: exp(-falloff x^2); 2 is the assignment's
 
   static constexpr auto fields() {
-    return std::tuple{
+    return fields_of(
         field("type", &FilterSettings::kind, "the filter's shape"),
         field("radius", &FilterSettings::radius, "half of its width, in pixels", above(0)),
-        field("falloff", &FilterSettings::falloff, "of gaussian: exp(-falloff * x^2), x in pixels", above(0))};
+        field("falloff", &FilterSettings::falloff, "of gaussian: exp(-falloff * x^2), x in pixels", above(0)));
   }
 };
 

@@ -193,7 +193,7 @@ std::array<PreparedScene::Stamp, 4> stamps_of(const Scene& scene) {
 // All that a struct describes.
 template <class T>
 bool is_same_description(const T& a, const T& b) {
-  return std::apply([&](const auto&... field) { return (... && (a.*field.member == b.*field.member)); }, T::fields());
+  return T::fields()([&](const auto&... field) { return (... && (a.*field.member == b.*field.member)); });
 }
 
 bool is_same_layer(const EnvironmentLayer& a, const EnvironmentLayer& b) {

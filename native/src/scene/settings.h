@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "base/describe.h"
@@ -73,9 +72,8 @@ struct RenderSettings {
 
   static constexpr auto fields() {
     using S = RenderSettings;
-    return std::tuple{
-        field("width", &S::width, "pixels", within(1, 65536)),
-        field("height", &S::height, "pixels", within(1, 65536)),
+    return fields_of(
+        field("width", &S::width, "pixels", within(1, 65536)), field("height", &S::height, "pixels", within(1, 65536)),
         field("border_x", &S::border_x, "left edge of the rectangle to render, pixels", at_least(0)),
         field("border_y", &S::border_y, "lower edge of the rectangle to render, pixels", at_least(0)),
         field("border_width", &S::border_width, "pixels; 0 is the whole width", at_least(0)),
@@ -130,7 +128,7 @@ struct RenderSettings {
         field("point_light_position", &S::point_light_position, "intersection_test: the light, world space"),
         field("point_light_flux", &S::point_light_flux, "intersection_test: watts", at_least(0)),
         field("max_depth", &S::max_depth, "intersection_test: surfaces that a path may meet", within(1, 1024)),
-        field("bvh_builder", &S::bvh_builder, "which builder makes the trees")};
+        field("bvh_builder", &S::bvh_builder, "which builder makes the trees"));
   }
 };
 

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "base/describe.h"
@@ -49,12 +48,11 @@ struct MixOperation {
   static constexpr std::string_view kind = "mix";
   static constexpr auto fields() {
     using M = MixOperation;
-    return std::tuple{field("blend", &M::blend, "named as in Blender's Mix node, in small letters"),
-                      field("factor", &M::factor, "0 is all a, 1 all b blended; only mix has one for each channel"),
-                      field("a", &M::a, "first colour"),
-                      field("b", &M::b, "second colour"),
-                      field("clamp_factor", &M::is_factor_clamped, "limits the factor to [0, 1]"),
-                      field("clamp", &M::is_result_clamped, "limits the result to [0, 1]")};
+    return fields_of(field("blend", &M::blend, "named as in Blender's Mix node, in small letters"),
+                     field("factor", &M::factor, "0 is all a, 1 all b blended; only mix has one for each channel"),
+                     field("a", &M::a, "first colour"), field("b", &M::b, "second colour"),
+                     field("clamp_factor", &M::is_factor_clamped, "limits the factor to [0, 1]"),
+                     field("clamp", &M::is_result_clamped, "limits the result to [0, 1]"));
   }
 };
 
@@ -70,13 +68,13 @@ struct TableOperation {
   static constexpr std::string_view kind = "table";
   static constexpr auto fields() {
     using T = TableOperation;
-    return std::tuple{field("value", &T::value, "what is looked up, each channel by itself"),
-                      field("factor", &T::factor, "0 leaves the value as it is"),
-                      field("colors", &T::colors, "three numbers for each entry"),
-                      field("minimum", &T::minimum, "the first entry's value"),
-                      field("maximum", &T::maximum, "the last entry's value"),
-                      field("interpolate", &T::is_interpolated, "linearly between entries"),
-                      field("extrapolate", &T::is_extrapolated, "beyond the ends straight on, else constant")};
+    return fields_of(field("value", &T::value, "what is looked up, each channel by itself"),
+                     field("factor", &T::factor, "0 leaves the value as it is"),
+                     field("colors", &T::colors, "three numbers for each entry"),
+                     field("minimum", &T::minimum, "the first entry's value"),
+                     field("maximum", &T::maximum, "the last entry's value"),
+                     field("interpolate", &T::is_interpolated, "linearly between entries"),
+                     field("extrapolate", &T::is_extrapolated, "beyond the ends straight on, else constant"));
   }
 };
 
@@ -91,9 +89,9 @@ struct ConvertColorOperation {
   bool operator==(const ConvertColorOperation&) const = default;
   static constexpr std::string_view kind = "convert_color";
   static constexpr auto fields() {
-    return std::tuple{field("color", &ConvertColorOperation::color, "three numbers"),
-                      field("source", &ConvertColorOperation::source, "what they are: rgb, hsv or hsl"),
-                      field("target", &ConvertColorOperation::target, "what they become: rgb, hsv or hsl")};
+    return fields_of(field("color", &ConvertColorOperation::color, "three numbers"),
+                     field("source", &ConvertColorOperation::source, "what they are: rgb, hsv or hsl"),
+                     field("target", &ConvertColorOperation::target, "what they become: rgb, hsv or hsl"));
   }
 };
 
@@ -105,11 +103,11 @@ struct HueSaturationOperation {
   static constexpr std::string_view kind = "hue_saturation";
   static constexpr auto fields() {
     using H = HueSaturationOperation;
-    return std::tuple{field("color", &H::color, "the colour to change"),
-                      field("hue", &H::hue, "0.5 leaves it as it is; 1 is once around"),
-                      field("saturation", &H::saturation, "multiplies the saturation"),
-                      field("value", &H::value, "multiplies the value"),
-                      field("factor", &H::factor, "0 leaves the colour as it is")};
+    return fields_of(field("color", &H::color, "the colour to change"),
+                     field("hue", &H::hue, "0.5 leaves it as it is; 1 is once around"),
+                     field("saturation", &H::saturation, "multiplies the saturation"),
+                     field("value", &H::value, "multiplies the value"),
+                     field("factor", &H::factor, "0 leaves the colour as it is"));
   }
 };
 
@@ -128,10 +126,10 @@ struct ToneOperation {
   static constexpr std::string_view kind = "tone";
   static constexpr auto fields() {
     using T = ToneOperation;
-    return std::tuple{field("change", &T::change, "gamma, bright_contrast or invert"),
-                      field("color", &T::color, "the colour to change"),
-                      field("a", &T::a, "the exponent, the brightness, or the share that is inverted"),
-                      field("b", &T::b, "bright_contrast: the contrast")};
+    return fields_of(field("change", &T::change, "gamma, bright_contrast or invert"),
+                     field("color", &T::color, "the colour to change"),
+                     field("a", &T::a, "the exponent, the brightness, or the share that is inverted"),
+                     field("b", &T::b, "bright_contrast: the contrast"));
   }
 };
 

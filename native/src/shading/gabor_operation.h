@@ -4,7 +4,6 @@
 
 #include <array>
 #include <string_view>
-#include <tuple>
 
 #include "base/describe.h"
 #include "shading/inputs.h"
@@ -27,14 +26,13 @@ struct GaborOperation {
   static constexpr std::string_view kind = "gabor";
   static constexpr auto fields() {
     using G = GaborOperation;
-    return std::tuple{field("output", &G::output, "value, phase or intensity, all within [0, 1]"),
-                      field("dimensions", &G::dimensions, "two or all three of the vector's", within(2, 3)),
-                      field("vector", &G::vector, "where"),
-                      field("scale", &G::scale, "multiplies it"),
-                      field("frequency", &G::frequency, "waves per cell"),
-                      field("anisotropy", &G::anisotropy, "1: all waves go one way, 0: any way"),
-                      field("angle", &G::angle, "that way in two dimensions, radians"),
-                      field("direction", &G::direction, "that way in three dimensions")};
+    return fields_of(field("output", &G::output, "value, phase or intensity, all within [0, 1]"),
+                     field("dimensions", &G::dimensions, "two or all three of the vector's", within(2, 3)),
+                     field("vector", &G::vector, "where"), field("scale", &G::scale, "multiplies it"),
+                     field("frequency", &G::frequency, "waves per cell"),
+                     field("anisotropy", &G::anisotropy, "1: all waves go one way, 0: any way"),
+                     field("angle", &G::angle, "that way in two dimensions, radians"),
+                     field("direction", &G::direction, "that way in three dimensions"));
   }
 };
 

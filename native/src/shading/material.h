@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -54,12 +53,12 @@ struct DiffuseShader {
   ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "diffuse";
   static constexpr auto fields() {
-    return std::tuple{
+    return fields_of(
         field("color", &DiffuseShader::color, "reflectance", within(0, 1)),
         field("twosided", &DiffuseShader::is_two_sided, "whether the back reflects too"),
         field("normal", &DiffuseShader::normal, normal_doc),
         field("roughness", &DiffuseShader::roughness,
-              "0 is Lambert's reflection, above that Oren and Nayar's, which keeps all light", within(0, 1))};
+              "0 is Lambert's reflection, above that Oren and Nayar's, which keeps all light", within(0, 1)));
   }
 };
 
@@ -75,16 +74,15 @@ struct GlossyShader {
   [[nodiscard]] bool is_stretched() const { return may_differ_from_zero(anisotropy); }
   static constexpr std::string_view kind = "glossy";
   static constexpr auto fields() {
-    return std::tuple{
-        field("color", &GlossyShader::color, "reflectance", within(0, 1)),
-        field("roughness", &GlossyShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
-        field("distribution", &GlossyShader::distribution,
-              "how the microfacets are turned: multi_ggx, ggx, beckmann or ashikhmin_shirley"),
-        field("normal", &GlossyShader::normal, normal_doc),
-        field("anisotropy", &GlossyShader::anisotropy, "above 0 smoother along the tangent, below 0 across",
-              within(-1, 1)),
-        field("rotation", &GlossyShader::rotation, rotation_doc),
-        field("tangent", &GlossyShader::tangent, tangent_doc)};
+    return fields_of(field("color", &GlossyShader::color, "reflectance", within(0, 1)),
+                     field("roughness", &GlossyShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
+                     field("distribution", &GlossyShader::distribution,
+                           "how the microfacets are turned: multi_ggx, ggx, beckmann or ashikhmin_shirley"),
+                     field("normal", &GlossyShader::normal, normal_doc),
+                     field("anisotropy", &GlossyShader::anisotropy,
+                           "above 0 smoother along the tangent, below 0 across", within(-1, 1)),
+                     field("rotation", &GlossyShader::rotation, rotation_doc),
+                     field("tangent", &GlossyShader::tangent, tangent_doc));
   }
 };
 
@@ -98,13 +96,13 @@ struct ConductorShader {
   [[nodiscard]] bool is_stretched() const { return alpha_x != alpha_y; }
   static constexpr std::string_view kind = "roughconductor";
   static constexpr auto fields() {
-    return std::tuple{field("reflectance", &ConductorShader::color, "multiplies the Fresnel reflectance", within(0, 1)),
-                      field("alpha_x", &ConductorShader::alpha_x, "width of the microfacets along u", within(0, 1)),
-                      field("alpha_y", &ConductorShader::alpha_y, "width of the microfacets along v", within(0, 1)),
-                      field("etaI", &ConductorShader::eta_outside, "refractive index outside", above(0)),
-                      field("etaT", &ConductorShader::eta, "refractive index of the metal", at_least(0)),
-                      field("k", &ConductorShader::k, "extinction of the metal", at_least(0)),
-                      field("ggx", &ConductorShader::is_ggx, "GGX microfacets instead of Beckmann's")};
+    return fields_of(field("reflectance", &ConductorShader::color, "multiplies the Fresnel reflectance", within(0, 1)),
+                     field("alpha_x", &ConductorShader::alpha_x, "width of the microfacets along u", within(0, 1)),
+                     field("alpha_y", &ConductorShader::alpha_y, "width of the microfacets along v", within(0, 1)),
+                     field("etaI", &ConductorShader::eta_outside, "refractive index outside", above(0)),
+                     field("etaT", &ConductorShader::eta, "refractive index of the metal", at_least(0)),
+                     field("k", &ConductorShader::k, "extinction of the metal", at_least(0)),
+                     field("ggx", &ConductorShader::is_ggx, "GGX microfacets instead of Beckmann's"));
   }
 };
 
@@ -128,7 +126,7 @@ struct MetallicShader {
   static constexpr std::string_view kind = "metallic";
   static constexpr auto fields() {
     using M = MetallicShader;
-    return std::tuple{
+    return fields_of(
         field("model", &M::model, "f82: by base_color and edge_tint; physical_conductor: by ior and extinction"),
         field("base_color", &M::base_color, "reflectance where it is met head on", within(0, 1)),
         field("edge_tint", &M::edge_tint, "multiplies the reflectance near grazing incidence", within(0, 1)),
@@ -137,11 +135,10 @@ struct MetallicShader {
         field("roughness", &M::roughness, "the microfacets' alpha is its square", within(0, 1)),
         field("distribution", &M::distribution, facet_distribution_doc),
         field("anisotropy", &M::anisotropy, "above 0 smoother across the tangent", within(0, 1)),
-        field("rotation", &M::rotation, rotation_doc),
-        field("tangent", &M::tangent, tangent_doc),
+        field("rotation", &M::rotation, rotation_doc), field("tangent", &M::tangent, tangent_doc),
         field("normal", &M::normal, normal_doc),
         field("thin_film_thickness", &M::thin_film_thickness, film_thickness_doc, at_least(0)),
-        field("thin_film_ior", &M::thin_film_ior, "refractive index of the film", above(0))};
+        field("thin_film_ior", &M::thin_film_ior, "refractive index of the film", above(0)));
   }
 };
 
@@ -156,14 +153,14 @@ struct RefractionShader {
   ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "refraction";
   static constexpr auto fields() {
-    return std::tuple{
+    return fields_of(
         field("color", &RefractionShader::color, "tint of the refracted light", within(0, 1)),
         field("eta", &RefractionShader::ior, "refractive index inside over outside", above(0)),
         field("roughness", &RefractionShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
         field("distribution", &RefractionShader::distribution, facet_distribution_doc),
         field("total_reflection", &RefractionShader::is_total_reflection_kept,
               "mirror light past the critical angle, or lose it as Blender does"),
-        field("normal", &RefractionShader::normal, normal_doc)};
+        field("normal", &RefractionShader::normal, normal_doc));
   }
 };
 
@@ -177,14 +174,14 @@ struct GlassShader {
   ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "glass";
   static constexpr auto fields() {
-    return std::tuple{field("R", &GlassShader::reflect_color, "tint of the reflected light", within(0, 1)),
-                      field("T", &GlassShader::transmit_color, "tint of the refracted light", within(0, 1)),
-                      field("eta", &GlassShader::ior, "refractive index inside over outside", above(0)),
-                      field("roughness", &GlassShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
-                      field("distribution", &GlassShader::distribution, facet_distribution_doc),
-                      field("normal", &GlassShader::normal, normal_doc),
-                      field("thin_film_thickness", &GlassShader::thin_film_thickness, film_thickness_doc, at_least(0)),
-                      field("thin_film_ior", &GlassShader::thin_film_ior, "refractive index of the film", above(0))};
+    return fields_of(field("R", &GlassShader::reflect_color, "tint of the reflected light", within(0, 1)),
+                     field("T", &GlassShader::transmit_color, "tint of the refracted light", within(0, 1)),
+                     field("eta", &GlassShader::ior, "refractive index inside over outside", above(0)),
+                     field("roughness", &GlassShader::roughness, "the microfacets' alpha is its square", within(0, 1)),
+                     field("distribution", &GlassShader::distribution, facet_distribution_doc),
+                     field("normal", &GlassShader::normal, normal_doc),
+                     field("thin_film_thickness", &GlassShader::thin_film_thickness, film_thickness_doc, at_least(0)),
+                     field("thin_film_ior", &GlassShader::thin_film_ior, "refractive index of the film", above(0)));
   }
 };
 
@@ -192,7 +189,7 @@ struct TransparentShader {
   ColorInput color{Color(1.0f)};
   static constexpr std::string_view kind = "transparent";
   static constexpr auto fields() {
-    return std::tuple{field("color", &TransparentShader::color, "what passes straight through", within(0, 1))};
+    return fields_of(field("color", &TransparentShader::color, "what passes straight through", within(0, 1)));
   }
 };
 
@@ -201,8 +198,8 @@ struct TranslucentShader {
   ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "translucent";
   static constexpr auto fields() {
-    return std::tuple{field("color", &TranslucentShader::color, "what goes through, spread evenly", within(0, 1)),
-                      field("normal", &TranslucentShader::normal, normal_doc)};
+    return fields_of(field("color", &TranslucentShader::color, "what goes through, spread evenly", within(0, 1)),
+                     field("normal", &TranslucentShader::normal, normal_doc));
   }
 };
 
@@ -218,10 +215,10 @@ struct SheenShader {
   ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "sheen";
   static constexpr auto fields() {
-    return std::tuple{field("color", &SheenShader::color, "tint", within(0, 1)),
-                      field("roughness", &SheenShader::roughness, "how far from grazing it is seen", within(0, 1)),
-                      field("model", &SheenShader::model, "microfiber or ashikhmin"),
-                      field("normal", &SheenShader::normal, normal_doc)};
+    return fields_of(field("color", &SheenShader::color, "tint", within(0, 1)),
+                     field("roughness", &SheenShader::roughness, "how far from grazing it is seen", within(0, 1)),
+                     field("model", &SheenShader::model, "microfiber or ashikhmin"),
+                     field("normal", &SheenShader::normal, normal_doc));
   }
 };
 
@@ -237,11 +234,11 @@ struct ToonShader {
   ColorInput normal{Vec3f(0.0f)};
   static constexpr std::string_view kind = "toon";
   static constexpr auto fields() {
-    return std::tuple{field("color", &ToonShader::color, "tint", within(0, 1)),
-                      field("component", &ToonShader::component, "diffuse: around the normal; glossy: the reflection"),
-                      field("size", &ToonShader::size, "of the spot, in right angles", within(0, 1)),
-                      field("smooth", &ToonShader::smooth, "width of the soft rim, in right angles", within(0, 1)),
-                      field("normal", &ToonShader::normal, normal_doc)};
+    return fields_of(field("color", &ToonShader::color, "tint", within(0, 1)),
+                     field("component", &ToonShader::component, "diffuse: around the normal; glossy: the reflection"),
+                     field("size", &ToonShader::size, "of the spot, in right angles", within(0, 1)),
+                     field("smooth", &ToonShader::smooth, "width of the soft rim, in right angles", within(0, 1)),
+                     field("normal", &ToonShader::normal, normal_doc));
   }
 };
 
@@ -251,16 +248,16 @@ struct EmissionShader {
   NumberInput strength = 1.0f;
   static constexpr std::string_view kind = "emission";
   static constexpr auto fields() {
-    return std::tuple{field("radiance", &EmissionShader::radiance, "W / (m^2 sr), each direction alike", at_least(0)),
-                      field("twosided", &EmissionShader::is_two_sided, "whether the back emits too"),
-                      field("strength", &EmissionShader::strength, "multiplies the radiance", at_least(0))};
+    return fields_of(field("radiance", &EmissionShader::radiance, "W / (m^2 sr), each direction alike", at_least(0)),
+                     field("twosided", &EmissionShader::is_two_sided, "whether the back emits too"),
+                     field("strength", &EmissionShader::strength, "multiplies the radiance", at_least(0)));
   }
 };
 
 // A hole in the picture for what the camera sees, black for all else.
 struct HoldoutShader {
   static constexpr std::string_view kind = "holdout";
-  static constexpr auto fields() { return std::tuple{}; }
+  static constexpr auto fields() { return fields_of(); }
 };
 
 // How the look of a body that light goes about in becomes the paths of that light, by a random walk. chiang: colour and
@@ -284,15 +281,14 @@ struct SubsurfaceShader {
   static constexpr std::string_view kind = "subsurface";
   static constexpr auto fields() {
     using S = SubsurfaceShader;
-    return std::tuple{
+    return fields_of(
         field("color", &S::color, "of the light that comes back from a thick body", within(0, 1)),
         field("radius", &S::radius, subsurface_radius_doc, at_least(0)),
         field("scale", &S::scale, "multiplies the radius", at_least(0)),
         field("ior", &S::ior, "refractive index by which light enters", above(0)),
         field("alpha", &S::alpha, "of the microfacets by which light enters", within(0, 1)),
         field("anisotropy", &S::anisotropy, "above 0 light is scattered forwards, below 0 backwards", within(-1, 1)),
-        field("model", &S::model, subsurface_model_doc),
-        field("normal", &S::normal, normal_doc)};
+        field("model", &S::model, subsurface_model_doc), field("normal", &S::normal, normal_doc));
   }
 };
 
@@ -322,7 +318,7 @@ struct PrincipledShader {
   [[nodiscard]] bool is_stretched() const { return may_differ_from_zero(anisotropic); }
   static constexpr std::string_view kind = "principled";
   static constexpr auto fields() {
-    return std::tuple{
+    return fields_of(
         field("base_color", &PrincipledShader::base_color, "reflectance of diffuse and metal, tint of glass",
               within(0, 1)),
         field("metallic", &PrincipledShader::metallic, "0 a dielectric, 1 a metal", within(0, 1)),
@@ -362,7 +358,7 @@ struct PrincipledShader {
               "skin: refractive index by which light enters; other models have the surface's", above(0)),
         field("subsurface_anisotropy", &PrincipledShader::subsurface_anisotropy,
               "above 0 light is scattered forwards, below 0 backwards", within(-1, 1)),
-        field("subsurface_model", &PrincipledShader::subsurface_model, subsurface_model_doc)};
+        field("subsurface_model", &PrincipledShader::subsurface_model, subsurface_model_doc));
   }
 };
 
@@ -380,7 +376,7 @@ struct VolumeShader {
   static constexpr std::string_view kind = "volume";
   static constexpr auto fields() {
     using V = VolumeShader;
-    return std::tuple{
+    return fields_of(
         field("absorption", &V::absorption, "share of the light that each metre takes away, 1 / m", at_least(0)),
         field("scattering", &V::scattering, "share of the light that each metre scatters, 1 / m", at_least(0)),
         field("emission", &V::emission, "radiance that each metre adds, W / (m^3 sr)", at_least(0)),
@@ -392,7 +388,7 @@ struct VolumeShader {
         field("ior", &V::ior, "fournier_forand: refractive index of the particles", above(1)),
         field("backscatter", &V::backscatter, "fournier_forand: share of the light that is scattered backwards",
               within(0, 0.5)),
-        field("diameter", &V::diameter, "mie: of the droplets, micrometres", within(0, 50))};
+        field("diameter", &V::diameter, "mie: of the droplets, micrometres", within(0, 50)));
   }
 };
 
@@ -415,7 +411,7 @@ struct PrincipledHairShader {
   static constexpr std::string_view kind = "principled_hair";
   static constexpr auto fields() {
     using H = PrincipledHairShader;
-    return std::tuple{
+    return fields_of(
         field("parametrization", &H::parametrization, "which of the next few count: melanin, color or absorption"),
         field("color", &H::color, "of much hair, seen from afar", within(0, 1)),
         field("melanin", &H::melanin, "how dark natural hair is", within(0, 1)),
@@ -429,7 +425,7 @@ struct PrincipledHairShader {
         field("offset", &H::offset, "how far the scales are tilted, radians", within(-1.5707964, 1.5707964)),
         field("random_color", &H::random_color, "how much melanin varies", within(0, 1)),
         field("random_roughness", &H::random_roughness, "how much both roughnesses vary", within(0, 1)),
-        field("random", &H::random, "what they vary with: from 0 to 1", within(0, 1))};
+        field("random", &H::random, "what they vary with: from 0 to 1", within(0, 1)));
   }
 };
 
@@ -448,14 +444,14 @@ struct HairShader {
   static constexpr std::string_view kind = "hair";
   static constexpr auto fields() {
     using H = HairShader;
-    return std::tuple{
+    return fields_of(
         field("component", &H::component, "reflection or transmission"),
         field("color", &H::color, "reflectance", within(0, 1)),
         field("offset", &H::offset, "how far the highlight moves along the fibre, radians",
               within(-1.5707964, 1.5707964)),
         field("roughness_u", &H::roughness_u, "along the fibre", within(0, 1)),
         field("roughness_v", &H::roughness_v, "around it", within(0, 1)),
-        field("on_curve", &H::is_on_curve, "1: fibres run along u; 0: along v, without an offset", within(0, 1))};
+        field("on_curve", &H::is_on_curve, "1: fibres run along u; 0: along v, without an offset", within(0, 1)));
   }
 };
 
@@ -464,9 +460,9 @@ struct MixShader {
   NodeIndex first = no_node, second = no_node;
   static constexpr std::string_view kind = "mix";
   static constexpr auto fields() {
-    return std::tuple{field("factor", &MixShader::factor, "0 is all the first, 1 all the second", within(0, 1)),
-                      field("first", &MixShader::first, "a node made before this one"),
-                      field("second", &MixShader::second, "a node made before this one")};
+    return fields_of(field("factor", &MixShader::factor, "0 is all the first, 1 all the second", within(0, 1)),
+                     field("first", &MixShader::first, "a node made before this one"),
+                     field("second", &MixShader::second, "a node made before this one"));
   }
 };
 
@@ -474,8 +470,8 @@ struct AddShader {
   NodeIndex first = no_node, second = no_node;
   static constexpr std::string_view kind = "add";
   static constexpr auto fields() {
-    return std::tuple{field("first", &AddShader::first, "a node made before this one"),
-                      field("second", &AddShader::second, "a node made before this one")};
+    return fields_of(field("first", &AddShader::first, "a node made before this one"),
+                     field("second", &AddShader::second, "a node made before this one"));
   }
 };
 
@@ -486,9 +482,9 @@ struct AovShader {
   NumberInput value = 0.0f;
   static constexpr std::string_view kind = "aov";
   static constexpr auto fields() {
-    return std::tuple{field("number", &AovShader::number, "of the passes AOV Color and AOV Value", within(1, aovs)),
-                      field("color", &AovShader::color, "in the pass AOV Color"),
-                      field("value", &AovShader::value, "in the pass AOV Value")};
+    return fields_of(field("number", &AovShader::number, "of the passes AOV Color and AOV Value", within(1, aovs)),
+                     field("color", &AovShader::color, "in the pass AOV Color"),
+                     field("value", &AovShader::value, "in the pass AOV Value"));
   }
 };
 

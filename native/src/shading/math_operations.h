@@ -4,7 +4,6 @@
 
 #include <array>
 #include <string_view>
-#include <tuple>
 
 #include "base/describe.h"
 #include "shading/inputs.h"
@@ -74,10 +73,10 @@ struct MathOperation {
   static constexpr std::string_view kind = "math";
   static constexpr auto fields() {
     using M = MathOperation;
-    return std::tuple{field("operation", &M::operation, "named as in Blender's Math node, in small letters"),
-                      field("a", &M::a, "first number"), field("b", &M::b, "second, where there is one"),
-                      field("c", &M::c, "third, where there is one"),
-                      field("clamp", &M::is_clamped, "limits the result to [0, 1]")};
+    return fields_of(field("operation", &M::operation, "named as in Blender's Math node, in small letters"),
+                     field("a", &M::a, "first number"), field("b", &M::b, "second, where there is one"),
+                     field("c", &M::c, "third, where there is one"),
+                     field("clamp", &M::is_clamped, "limits the result to [0, 1]"));
   }
 };
 
@@ -128,10 +127,10 @@ struct VectorMathOperation {
   static constexpr std::string_view kind = "vector_math";
   static constexpr auto fields() {
     using M = VectorMathOperation;
-    return std::tuple{field("operation", &M::operation, "named as in Blender's Vector Math node, in small letters"),
-                      field("a", &M::a, "first vector"), field("b", &M::b, "second, where there is one"),
-                      field("c", &M::c, "third, where there is one"),
-                      field("scale", &M::scale, "of scale; the refractive index of refract")};
+    return fields_of(field("operation", &M::operation, "named as in Blender's Vector Math node, in small letters"),
+                     field("a", &M::a, "first vector"), field("b", &M::b, "second, where there is one"),
+                     field("c", &M::c, "third, where there is one"),
+                     field("scale", &M::scale, "of scale; the refractive index of refract"));
   }
 };
 
@@ -151,14 +150,12 @@ struct MapRangeOperation {
   static constexpr std::string_view kind = "map_range";
   static constexpr auto fields() {
     using M = MapRangeOperation;
-    return std::tuple{field("value", &M::value, "each number of it by itself"),
-                      field("from_min", &M::from_min, "becomes to_min"),
-                      field("from_max", &M::from_max, "becomes to_max"),
-                      field("to_min", &M::to_min, "what from_min becomes"),
-                      field("to_max", &M::to_max, "what from_max becomes"),
-                      field("steps", &M::steps, "stepped: how many"),
-                      field("interpolation", &M::interpolation, "linear, stepped, smoothstep or smootherstep"),
-                      field("clamp", &M::is_clamped, "limits linear and stepped results to the new range")};
+    return fields_of(
+        field("value", &M::value, "each number of it by itself"), field("from_min", &M::from_min, "becomes to_min"),
+        field("from_max", &M::from_max, "becomes to_max"), field("to_min", &M::to_min, "what from_min becomes"),
+        field("to_max", &M::to_max, "what from_max becomes"), field("steps", &M::steps, "stepped: how many"),
+        field("interpolation", &M::interpolation, "linear, stepped, smoothstep or smootherstep"),
+        field("clamp", &M::is_clamped, "limits linear and stepped results to the new range"));
   }
 };
 
@@ -175,8 +172,8 @@ struct ComponentOperation {
   bool operator==(const ComponentOperation&) const = default;
   static constexpr std::string_view kind = "component";
   static constexpr auto fields() {
-    return std::tuple{field("value", &ComponentOperation::value, "a vector or a colour"),
-                      field("component", &ComponentOperation::component, "x, y, z, average or luminance")};
+    return fields_of(field("value", &ComponentOperation::value, "a vector or a colour"),
+                     field("component", &ComponentOperation::component, "x, y, z, average or luminance"));
   }
 };
 
@@ -186,9 +183,9 @@ struct CombineOperation {
   bool operator==(const CombineOperation&) const = default;
   static constexpr std::string_view kind = "combine";
   static constexpr auto fields() {
-    return std::tuple{field("x", &CombineOperation::x, "first number"),
-                      field("y", &CombineOperation::y, "second number"),
-                      field("z", &CombineOperation::z, "third number")};
+    return fields_of(field("x", &CombineOperation::x, "first number"),
+                     field("y", &CombineOperation::y, "second number"),
+                     field("z", &CombineOperation::z, "third number"));
   }
 };
 

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <string_view>
-#include <tuple>
 
 #include "base/describe.h"
 #include "shading/inputs.h"
@@ -30,20 +29,18 @@ struct NoiseOperation {
   static constexpr std::string_view kind = "noise";
   static constexpr auto fields() {
     using N = NoiseOperation;
-    return std::tuple{
+    return fields_of(
         field("noise", &N::noise, "multifractal, fbm, hybrid_multifractal, ridged_multifractal or hetero_terrain"),
         field("dimensions", &N::dimensions, "of w alone, of the vector, or of both", within(1, 4)),
-        field("vector", &N::vector, "where"),
-        field("w", &N::w, "of one and of four dimensions"),
-        field("scale", &N::scale, "multiplies both"),
-        field("detail", &N::detail, "octaves, less one"),
+        field("vector", &N::vector, "where"), field("w", &N::w, "of one and of four dimensions"),
+        field("scale", &N::scale, "multiplies both"), field("detail", &N::detail, "octaves, less one"),
         field("roughness", &N::roughness, "an octave's share of the one before"),
         field("lacunarity", &N::lacunarity, "an octave's frequency over that of the one before"),
         field("offset", &N::offset, "of hybrid, ridged and hetero terrain"),
         field("gain", &N::gain, "of hybrid and ridged"),
         field("distortion", &N::distortion, "how far noise moves the point"),
         field("normalize", &N::is_normalized, "fbm: within [0, 1]"),
-        field("color", &N::gives_color, "gives three noises instead of one")};
+        field("color", &N::gives_color, "gives three noises instead of one"));
   }
 };
 
@@ -57,9 +54,9 @@ struct WhiteNoiseOperation {
   static constexpr std::string_view kind = "white_noise";
   static constexpr auto fields() {
     using W = WhiteNoiseOperation;
-    return std::tuple{field("dimensions", &W::dimensions, "of w alone, of the vector, or of both", within(1, 4)),
-                      field("vector", &W::vector, "where"), field("w", &W::w, "of one and of four dimensions"),
-                      field("color", &W::gives_color, "gives three numbers instead of one")};
+    return fields_of(field("dimensions", &W::dimensions, "of w alone, of the vector, or of both", within(1, 4)),
+                     field("vector", &W::vector, "where"), field("w", &W::w, "of one and of four dimensions"),
+                     field("color", &W::gives_color, "gives three numbers instead of one"));
   }
 };
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string_view>
-#include <tuple>
 
 #include "base/describe.h"
 #include "shading/inputs.h"
@@ -25,11 +24,11 @@ struct AmbientOcclusionOperation {
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
     using A = AmbientOcclusionOperation;
-    return std::tuple{field("distance", &A::distance, "how far rays go, metres; 0 gives 1"),
-                      field("normal", &A::normal, "in world space, on the viewer's side; zero is the surface's own"),
-                      field("samples", &A::samples, "rays at each point", within(1, 128)),
-                      field("inside", &A::is_inside, "rays go below the surface instead of above"),
-                      field("only_local", &A::is_local, "rays meet the object itself alone")};
+    return fields_of(field("distance", &A::distance, "how far rays go, metres; 0 gives 1"),
+                     field("normal", &A::normal, "in world space, on the viewer's side; zero is the surface's own"),
+                     field("samples", &A::samples, "rays at each point", within(1, 128)),
+                     field("inside", &A::is_inside, "rays go below the surface instead of above"),
+                     field("only_local", &A::is_local, "rays meet the object itself alone"));
   }
 };
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "base/describe.h"
@@ -118,7 +117,7 @@ struct SurfaceOperation {
   static constexpr std::string_view kind = "surface";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("value", &SurfaceOperation::value, "what of the point: see docs/scene_format.md")};
+    return fields_of(field("value", &SurfaceOperation::value, "what of the point: see docs/scene_format.md"));
   }
 };
 
@@ -131,8 +130,8 @@ struct AttributeOperation {
   static constexpr std::string_view kind = "attribute";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("name", &AttributeOperation::name, "of the mesh's attribute"),
-                      field("missing", &AttributeOperation::missing, "where the mesh has none of that name")};
+    return fields_of(field("name", &AttributeOperation::name, "of the mesh's attribute"),
+                     field("missing", &AttributeOperation::missing, "where the mesh has none of that name"));
   }
 };
 
@@ -150,9 +149,9 @@ struct FresnelOperation {
   static constexpr std::string_view kind = "fresnel";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("of", &FresnelOperation::of, "fresnel, or Blender's Layer Weight: layer_fresnel or facing"),
-                      field("value", &FresnelOperation::value, "the refractive index, or the layer weight's blend"),
-                      field("normal", &FresnelOperation::normal, "world space; zero is the surface's own")};
+    return fields_of(field("of", &FresnelOperation::of, "fresnel, or Blender's Layer Weight: layer_fresnel or facing"),
+                     field("value", &FresnelOperation::value, "the refractive index, or the layer weight's blend"),
+                     field("normal", &FresnelOperation::normal, "world space; zero is the surface's own"));
   }
 };
 
@@ -173,13 +172,13 @@ struct NormalMapOperation {
   static constexpr std::string_view kind = "normal_map";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("color", &NormalMapOperation::color, "the normal, halved and moved by a half"),
-                      field("strength", &NormalMapOperation::strength, "0 is the surface's own normal", at_least(0)),
-                      field("space", &NormalMapOperation::space, "tangent, object or world"),
-                      field("tangent", &NormalMapOperation::tangent,
-                            "an operation that gives the colour's x axis, object space; else it is that of uv"),
-                      field("tangent_sign", &NormalMapOperation::tangent_sign,
-                            "the y axis is so often the normal cross the tangent")};
+    return fields_of(field("color", &NormalMapOperation::color, "the normal, halved and moved by a half"),
+                     field("strength", &NormalMapOperation::strength, "0 is the surface's own normal", at_least(0)),
+                     field("space", &NormalMapOperation::space, "tangent, object or world"),
+                     field("tangent", &NormalMapOperation::tangent,
+                           "an operation that gives the colour's x axis, object space; else it is that of uv"),
+                     field("tangent_sign", &NormalMapOperation::tangent_sign,
+                           "the y axis is so often the normal cross the tangent"));
   }
 };
 
@@ -191,7 +190,7 @@ struct TangentOperation {
   static constexpr std::string_view kind = "tangent";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("direction", &TangentOperation::direction, "object space; zero gives zero")};
+    return fields_of(field("direction", &TangentOperation::direction, "object space; zero gives zero"));
   }
 };
 
@@ -204,8 +203,8 @@ struct WireframeOperation {
   static constexpr std::string_view kind = "wireframe";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("size", &WireframeOperation::size, "width of the edges, metres"),
-                      field("in_pixels", &WireframeOperation::is_in_pixels, "the size is in pixels")};
+    return fields_of(field("size", &WireframeOperation::size, "width of the edges, metres"),
+                     field("in_pixels", &WireframeOperation::is_in_pixels, "the size is in pixels"));
   }
 };
 
@@ -225,14 +224,14 @@ struct BumpOperation {
   static constexpr std::string_view kind = "bump";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("height", &BumpOperation::height, "an operation that gives metres over distance"),
-                      field("strength", &BumpOperation::strength, "0 is the normal as it was", at_least(0)),
-                      field("distance", &BumpOperation::distance, "multiplies the height"),
-                      field("normal", &BumpOperation::normal, "world space; zero is the surface's own"),
-                      field("invert", &BumpOperation::is_inverted, "bumps become dents"),
-                      field("filter_width", &BumpOperation::filter_width,
-                            "how far apart the height is looked at, in pixels", above(0)),
-                      field("local", &BumpOperation::is_local, "the distance is in object space")};
+    return fields_of(field("height", &BumpOperation::height, "an operation that gives metres over distance"),
+                     field("strength", &BumpOperation::strength, "0 is the normal as it was", at_least(0)),
+                     field("distance", &BumpOperation::distance, "multiplies the height"),
+                     field("normal", &BumpOperation::normal, "world space; zero is the surface's own"),
+                     field("invert", &BumpOperation::is_inverted, "bumps become dents"),
+                     field("filter_width", &BumpOperation::filter_width,
+                           "how far apart the height is looked at, in pixels", above(0)),
+                     field("local", &BumpOperation::is_local, "the distance is in object space"));
   }
 };
 

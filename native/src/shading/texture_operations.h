@@ -4,7 +4,6 @@
 
 #include <array>
 #include <string_view>
-#include <tuple>
 
 #include "base/describe.h"
 #include "shading/inputs.h"
@@ -32,13 +31,13 @@ struct ImageOperation {
   static constexpr std::string_view kind = "texture";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{field("texture", &ImageOperation::texture, "of the scene"),
-                      field("vector", &ImageOperation::vector, "instead of uv"),
-                      field("alpha", &ImageOperation::is_alpha, "gives its alpha instead of its colour"),
-                      field("projection", &ImageOperation::projection,
-                            "flat: over x and y; box: on six sides, by the normal; sphere and tube: around z; "
-                            "equirectangular and mirror_ball: over directions"),
-                      field("blend", &ImageOperation::blend, "how softly the sides of the box meet", within(0, 1))};
+    return fields_of(field("texture", &ImageOperation::texture, "of the scene"),
+                     field("vector", &ImageOperation::vector, "instead of uv"),
+                     field("alpha", &ImageOperation::is_alpha, "gives its alpha instead of its colour"),
+                     field("projection", &ImageOperation::projection,
+                           "flat: over x and y; box: on six sides, by the normal; sphere and tube: around z; "
+                           "equirectangular and mirror_ball: over directions"),
+                     field("blend", &ImageOperation::blend, "how softly the sides of the box meet", within(0, 1)));
   }
 };
 
@@ -50,8 +49,8 @@ struct CheckerOperation {
   bool operator==(const CheckerOperation&) const = default;
   static constexpr std::string_view kind = "checker";
   static constexpr auto fields() {
-    return std::tuple{field("vector", &CheckerOperation::vector, "where"),
-                      field("scale", &CheckerOperation::scale, "cells in one metre")};
+    return fields_of(field("vector", &CheckerOperation::vector, "where"),
+                     field("scale", &CheckerOperation::scale, "cells in one metre"));
   }
 };
 
@@ -67,9 +66,9 @@ struct GradientOperation {
   bool operator==(const GradientOperation&) const = default;
   static constexpr std::string_view kind = "gradient";
   static constexpr auto fields() {
-    return std::tuple{field("gradient", &GradientOperation::gradient,
-                            "linear, quadratic, easing, diagonal, radial, quadratic_sphere or spherical"),
-                      field("vector", &GradientOperation::vector, "where")};
+    return fields_of(field("gradient", &GradientOperation::gradient,
+                           "linear, quadratic, easing, diagonal, radial, quadratic_sphere or spherical"),
+                     field("vector", &GradientOperation::vector, "where"));
   }
 };
 
@@ -93,16 +92,14 @@ struct WaveOperation {
   static constexpr std::string_view kind = "wave";
   static constexpr auto fields() {
     using W = WaveOperation;
-    return std::tuple{field("rings", &W::is_rings, "rings instead of bands"),
-                      field("direction", &W::direction, "x, y, z, diagonal (of bands) or spherical (of rings)"),
-                      field("profile", &W::profile, "sine, saw or triangle"),
-                      field("vector", &W::vector, "where"),
-                      field("scale", &W::scale, "multiplies the vector"),
-                      field("distortion", &W::distortion, "by noise"),
-                      field("detail", &W::detail, "of the noise"),
-                      field("detail_scale", &W::detail_scale, "of the noise"),
-                      field("detail_roughness", &W::detail_roughness, "of the noise"),
-                      field("phase", &W::phase, "moves the waves, radians")};
+    return fields_of(field("rings", &W::is_rings, "rings instead of bands"),
+                     field("direction", &W::direction, "x, y, z, diagonal (of bands) or spherical (of rings)"),
+                     field("profile", &W::profile, "sine, saw or triangle"), field("vector", &W::vector, "where"),
+                     field("scale", &W::scale, "multiplies the vector"),
+                     field("distortion", &W::distortion, "by noise"), field("detail", &W::detail, "of the noise"),
+                     field("detail_scale", &W::detail_scale, "of the noise"),
+                     field("detail_roughness", &W::detail_roughness, "of the noise"),
+                     field("phase", &W::phase, "moves the waves, radians"));
   }
 };
 
@@ -114,10 +111,10 @@ struct MagicOperation {
   bool operator==(const MagicOperation&) const = default;
   static constexpr std::string_view kind = "magic";
   static constexpr auto fields() {
-    return std::tuple{field("depth", &MagicOperation::depth, "iterations", within(0, 10)),
-                      field("vector", &MagicOperation::vector, "where"),
-                      field("scale", &MagicOperation::scale, "multiplies the vector"),
-                      field("distortion", &MagicOperation::distortion, "how much")};
+    return fields_of(field("depth", &MagicOperation::depth, "iterations", within(0, 10)),
+                     field("vector", &MagicOperation::vector, "where"),
+                     field("scale", &MagicOperation::scale, "multiplies the vector"),
+                     field("distortion", &MagicOperation::distortion, "how much"));
   }
 };
 
@@ -133,17 +130,15 @@ struct BrickOperation {
   static constexpr std::string_view kind = "brick";
   static constexpr auto fields() {
     using B = BrickOperation;
-    return std::tuple{field("vector", &B::vector, "where"),
-                      field("scale", &B::scale, "multiplies the vector"),
-                      field("mortar_size", &B::mortar_size, "0 is none"),
-                      field("mortar_smooth", &B::mortar_smooth, "0 is a sharp edge"),
-                      field("bias", &B::bias, "-1 is all the first colour, 1 all the second"),
-                      field("brick_width", &B::brick_width, "of a brick"),
-                      field("row_height", &B::row_height, "of a row"),
-                      field("offset", &B::offset, "of shifted rows"),
-                      field("squash", &B::squash, "of squashed rows"),
-                      field("offset_frequency", &B::offset_frequency, "how often rows are shifted", at_least(0)),
-                      field("squash_frequency", &B::squash_frequency, "how often rows are squashed", at_least(0))};
+    return fields_of(field("vector", &B::vector, "where"), field("scale", &B::scale, "multiplies the vector"),
+                     field("mortar_size", &B::mortar_size, "0 is none"),
+                     field("mortar_smooth", &B::mortar_smooth, "0 is a sharp edge"),
+                     field("bias", &B::bias, "-1 is all the first colour, 1 all the second"),
+                     field("brick_width", &B::brick_width, "of a brick"),
+                     field("row_height", &B::row_height, "of a row"), field("offset", &B::offset, "of shifted rows"),
+                     field("squash", &B::squash, "of squashed rows"),
+                     field("offset_frequency", &B::offset_frequency, "how often rows are shifted", at_least(0)),
+                     field("squash_frequency", &B::squash_frequency, "how often rows are squashed", at_least(0)));
   }
 };
 

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <string_view>
-#include <tuple>
 
 #include "base/describe.h"
 #include "math/transform.h"
@@ -28,10 +27,10 @@ struct MappingOperation {
   static constexpr std::string_view kind = "mapping";
   static constexpr auto fields() {
     using M = MappingOperation;
-    return std::tuple{field("mapping", &M::mapping, "what is mapped: point, texture (backwards), vector or normal"),
-                      field("vector", &M::vector, "what is mapped"), field("location", &M::location, "added"),
-                      field("rotation", &M::rotation, "radians about x, then y, then z"),
-                      field("scale", &M::scale, "multiplied before the rotation")};
+    return fields_of(field("mapping", &M::mapping, "what is mapped: point, texture (backwards), vector or normal"),
+                     field("vector", &M::vector, "what is mapped"), field("location", &M::location, "added"),
+                     field("rotation", &M::rotation, "radians about x, then y, then z"),
+                     field("scale", &M::scale, "multiplied before the rotation"));
   }
 };
 
@@ -50,13 +49,11 @@ struct RotateOperation {
   static constexpr std::string_view kind = "rotate";
   static constexpr auto fields() {
     using R = RotateOperation;
-    return std::tuple{field("about", &R::about, "axis_angle, x_axis, y_axis, z_axis or euler_xyz"),
-                      field("vector", &R::vector, "what is turned"),
-                      field("center", &R::center, "stays where it is"),
-                      field("axis", &R::axis, "axis_angle: of any length"),
-                      field("rotation", &R::rotation, "euler_xyz: radians about x, then y, then z"),
-                      field("angle", &R::angle, "radians"),
-                      field("invert", &R::is_inverted, "turns the other way")};
+    return fields_of(field("about", &R::about, "axis_angle, x_axis, y_axis, z_axis or euler_xyz"),
+                     field("vector", &R::vector, "what is turned"), field("center", &R::center, "stays where it is"),
+                     field("axis", &R::axis, "axis_angle: of any length"),
+                     field("rotation", &R::rotation, "euler_xyz: radians about x, then y, then z"),
+                     field("angle", &R::angle, "radians"), field("invert", &R::is_inverted, "turns the other way"));
   }
 };
 
@@ -72,9 +69,9 @@ struct TransformOperation {
   bool operator==(const TransformOperation&) const = default;
   static constexpr std::string_view kind = "transform";
   static constexpr auto fields() {
-    return std::tuple{field("vector", &TransformOperation::vector, "what is transformed"),
-                      field("transform", &TransformOperation::transform, "of columns, rows first"),
-                      field("quantity", &TransformOperation::quantity, "what it is: point, vector or normal")};
+    return fields_of(field("vector", &TransformOperation::vector, "what is transformed"),
+                     field("transform", &TransformOperation::transform, "of columns, rows first"),
+                     field("quantity", &TransformOperation::quantity, "what it is: point, vector or normal"));
   }
 };
 
@@ -91,11 +88,11 @@ struct ChangeSpaceOperation {
   static constexpr std::string_view kind = "change_space";
   static constexpr bool reads_point = true;
   static constexpr auto fields() {
-    return std::tuple{
+    return fields_of(
         field("vector", &ChangeSpaceOperation::vector, "what is transformed"),
         field("source", &ChangeSpaceOperation::source, "world, object or camera (where z points forwards)"),
         field("target", &ChangeSpaceOperation::target, "world, object or camera (where z points forwards)"),
-        field("quantity", &ChangeSpaceOperation::quantity, "what it is: point, vector or normal")};
+        field("quantity", &ChangeSpaceOperation::quantity, "what it is: point, vector or normal"));
   }
 };
 

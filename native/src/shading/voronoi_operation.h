@@ -4,7 +4,6 @@
 
 #include <array>
 #include <string_view>
-#include <tuple>
 
 #include "base/describe.h"
 #include "shading/inputs.h"
@@ -44,21 +43,19 @@ struct VoronoiOperation {
   static constexpr std::string_view kind = "voronoi";
   static constexpr auto fields() {
     using V = VoronoiOperation;
-    return std::tuple{field("feature", &V::feature, "f1, f2, smooth_f1, distance_to_edge or n_sphere_radius"),
-                      field("metric", &V::metric, "euclidean, manhattan, chebychev or minkowski"),
-                      field("output", &V::output, "distance (also the edge's, or the radius), color, position or w"),
-                      field("hash", &V::hash, "where points are: pcg as from Blender 5.0 on, or lookup3 as before"),
-                      field("dimensions", &V::dimensions, "of w alone, of the vector, or of both", within(1, 4)),
-                      field("vector", &V::vector, "where"),
-                      field("w", &V::w, "of one and of four dimensions"),
-                      field("scale", &V::scale, "multiplies both"),
-                      field("detail", &V::detail, "octaves, less one"),
-                      field("roughness", &V::roughness, "an octave's share of the one before"),
-                      field("lacunarity", &V::lacunarity, "an octave's frequency over that of the one before"),
-                      field("smoothness", &V::smoothness, "of smooth_f1"),
-                      field("exponent", &V::exponent, "of minkowski"),
-                      field("randomness", &V::randomness, "0 is a grid"),
-                      field("normalize", &V::is_normalized, "distances about within [0, 1]")};
+    return fields_of(field("feature", &V::feature, "f1, f2, smooth_f1, distance_to_edge or n_sphere_radius"),
+                     field("metric", &V::metric, "euclidean, manhattan, chebychev or minkowski"),
+                     field("output", &V::output, "distance (also the edge's, or the radius), color, position or w"),
+                     field("hash", &V::hash, "where points are: pcg as from Blender 5.0 on, or lookup3 as before"),
+                     field("dimensions", &V::dimensions, "of w alone, of the vector, or of both", within(1, 4)),
+                     field("vector", &V::vector, "where"), field("w", &V::w, "of one and of four dimensions"),
+                     field("scale", &V::scale, "multiplies both"), field("detail", &V::detail, "octaves, less one"),
+                     field("roughness", &V::roughness, "an octave's share of the one before"),
+                     field("lacunarity", &V::lacunarity, "an octave's frequency over that of the one before"),
+                     field("smoothness", &V::smoothness, "of smooth_f1"),
+                     field("exponent", &V::exponent, "of minkowski"),
+                     field("randomness", &V::randomness, "0 is a grid"),
+                     field("normalize", &V::is_normalized, "distances about within [0, 1]"));
   }
 };
 
