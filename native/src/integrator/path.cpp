@@ -265,9 +265,9 @@ void PathIntegrator::cut_out(const Path& path, const Ray& ray, const SurfacePoin
 void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf,
                                    PixelSample& sample) {
   if (bsdf.has_only_deltas() || scene_.lights.is_empty()) return;
-  const float choice = path.sampler.next_1d();
+  const auto [choice, u] = path.sampler.next_choice();
   std::optional<LightSample> light =
-      scene_.lights.sample({point.position, bsdf.lit_side(-ray.direction)}, choice, path.sampler.next_2d(), ray.time);
+      scene_.lights.sample({point.position, bsdf.lit_side(-ray.direction)}, choice, u, ray.time);
   if (!light || path.bounces.total > light->max_bounces) return;
   look_up_emission(path, point.position, ray.time, *light);
   BsdfValue reflected = eval_towards(*light, point, -ray.direction, bsdf);
@@ -385,8 +385,8 @@ void PathIntegrator::leave_bodies(std::span<PixelSample> samples) {
 
 // Sends the path on in a sampled direction. False where it ends, or goes on beneath the surface.
 bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point, const Bsdf& bsdf) {
-  const float choice = path.sampler.next_1d();
-  const std::optional<BsdfSample> scattered = bsdf.sample(-ray.direction, choice, path.sampler.next_2d());
+  const auto [choice, u] = path.sampler.next_choice();
+  const std::optional<BsdfSample> scattered = bsdf.sample(-ray.direction, choice, u);
   const bool is_passed = scattered && scattered->kind == ScatterKind::transparent && !path.ends_at_panes;
   if (!scattered || (path.is_last && !is_passed)) return false;
   path.throughput *= scattered->weight * terminator_share(point, scattered->wi);

@@ -186,6 +186,7 @@ LightBounds lamp_bounds(const AreaLamp& light) {
           .cos_normals = 1,
           .cos_emission = light.has_full_spread ? 0 : float(std::cos(light.half_spread)),
           .is_solid = true,
+          .lowest = height_along(Vec3f(light.normal), light.center),
           .intensity = luminance(light.radiance) * float(light.area * spread_share(light, 1))};
 }
 

@@ -15,6 +15,11 @@ Vec3f aligned_axis(const LightBounds& light, const LightBounds& first) {
 
 }  // namespace
 
+// A bit less, for the rounding of the axis.
+float height_along(Vec3f axis, Vec3d point) {
+  return static_cast<float>(dot(Vec3d(axis), point) - 1e-6 * max_component(abs(point)));
+}
+
 LightBounds merge(std::span<const LightBounds> lights) {
   const LightBounds& first = lights.front();
   if (lights.size() == 1) return first;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "light/lit_point.h"
@@ -19,7 +20,9 @@ struct LightBounds {
   float cos_emission = 0;     // and it shines within this angle of its normals,
   bool is_two_sided = false;  // or of their opposites
   bool is_solid = false;      // a lamp that rays can run into
-  float intensity = 0;        // W / sr along a normal, of the luminance
+  // None of its points is lower along the axis; known of flat lights.
+  float lowest = -std::numeric_limits<float>::infinity();
+  float intensity = 0;  // W / sr along a normal, of the luminance
 };
 
 // A light infinitely far away.
@@ -28,6 +31,9 @@ struct DistantBounds {
   float cos_radius = 1, sin_radius = 0;
   float irradiance = 0;  // of the luminance, on a surface that faces it
 };
+
+// Of a light all of whose points lie in a plane across its axis.
+[[nodiscard]] float height_along(Vec3f axis, Vec3d point);
 
 // Holds all of them (at least one).
 [[nodiscard]] LightBounds merge(std::span<const LightBounds> lights);

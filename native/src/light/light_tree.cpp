@@ -19,6 +19,8 @@ Float4 four(const std::array<float, LightTree::width>& lanes, int first) { retur
 Float4 cos_of_rest(Float4 cos_a, Float4 sin_a, Float4 cos_b, Float4 sin_b) {
   return select(cos_b <= cos_a, Float4::all(1), cos_a * cos_b + sin_a * sin_b);
 }
+// A guess at the mean over a group of lights, of the value at its middle and the greatest that there may be.
+Float4 between(Float4 middle, Float4 greatest) { return middle + (greatest - middle) * Float4::all(0.25f); }
 Float4 sin_of(Float4 cosine) { return sqrt(max(Float4::all(1) - cosine * cosine, Float4::all(0))); }
 
 // What a group of lights costs: how strong it is, how far spread and how variously turned. The last is estimated by the
@@ -152,7 +154,10 @@ void LightTree::set_child(std::uint32_t index, int lane, const LightBounds& boun
   const Vec3f center = bounds.box.center(), half = bounds.box.extent() * 0.5f;
   node.center_x[lane] = center.x, node.center_y[lane] = center.y, node.center_z[lane] = center.z;
   // A bit more for the rounding of the centre.
-  node.radius[lane] = length(half) * (1 + 1e-5f) + 3e-7f * max_component(abs(center));
+  const float slack = 3e-7f * max_component(abs(center));
+  node.radius[lane] = length(half) * (1 + 1e-5f) + slack;
+  node.half_x[lane] = half.x + slack, node.half_y[lane] = half.y + slack, node.half_z[lane] = half.z + slack;
+  node.lowest[lane] = bounds.is_two_sided ? -std::numeric_limits<float>::infinity() : bounds.lowest;
   node.axis_x[lane] = bounds.axis.x, node.axis_y[lane] = bounds.axis.y, node.axis_z[lane] = bounds.axis.z;
   node.cos_normals[lane] = bounds.cos_normals;
   node.sin_normals[lane] = std::sqrt(std::max(0.0f, 1 - bounds.cos_normals * bounds.cos_normals));
@@ -169,6 +174,7 @@ LightTree::Weights LightTree::weigh(const Node& node, const LitPoint& point) {
                pz = Float4::all(point.position.z);
   const Float4 nx = Float4::all(point.normal.x), ny = Float4::all(point.normal.y), nz = Float4::all(point.normal.z);
   const bool has_normal = point.has_normal();
+  const Float4 magnitude = Float4::all(max_component(abs(point.position)));
   const Float4 slack = Float4::all(-cosine_slack), least = Float4::all(least_cosine);
 
   Weights weights{};
@@ -188,12 +194,20 @@ LightTree::Weights LightTree::weigh(const Node& node, const LitPoint& point) {
     const Float4 from_normals =
         cos_of_rest(cosine, sin_of(cosine), four(node.cos_normals, i), four(node.sin_normals, i));
     const Float4 emitted = cos_of_rest(from_normals, sin_of(from_normals), cos_seen, sin_seen);
-    Float4 weight = select(emitted < four(node.cos_emission, i) + slack, zero, max(emitted, least));
+    Float4 weight = select(emitted < four(node.cos_emission, i) + slack, zero,
+                           max(between(max(from_normals, zero), emitted), least));
+    // Behind a flat light nothing arrives, however near.
+    const Float4 height = four(node.axis_x, i) * px + four(node.axis_y, i) * py + four(node.axis_z, i) * pz;
+    weight = select(height < four(node.lowest, i) - magnitude * Float4::all(1e-6f), zero, weight);
 
     if (has_normal) {
       const Float4 incident = (nx * x + ny * y + nz * z) * inverse;
       const Float4 greatest = cos_of_rest(incident, sin_of(incident), cos_seen, sin_seen);
-      weight = weight * select(greatest < slack, zero, max(greatest, least));
+      const Float4 above = nx * x + ny * y + nz * z + abs(nx) * four(node.half_x, i) + abs(ny) * four(node.half_y, i) +
+                           abs(nz) * four(node.half_z, i);
+      const Mask4 is_below = above * inverse < slack;
+      weight = weight * select(is_below, zero,
+                               select(greatest < slack, zero, max(between(max(incident, zero), greatest), least)));
     }
     // Near a group, lights are spread all around: no nearer than half its radius on average.
     const Float4 divisor = max(max(distance_squared, radius_squared * Float4::all(0.25f)), Float4::all(1e-30f));

@@ -53,10 +53,12 @@ class LightTree {
 
  private:
   using Lanes = std::array<float, width>;
-  // Of each child: a ball around it and the cone of its normals, as in LightBounds.
+  // Of each child: a ball and a box around it and the cone of its normals, as in LightBounds.
   struct alignas(64) Node {
     Lanes center_x{}, center_y{}, center_z{}, radius{};
+    Lanes half_x{}, half_y{}, half_z{};  // of the box
     Lanes axis_x{}, axis_y{}, axis_z{}, cos_normals{}, sin_normals{}, cos_emission{};
+    Lanes lowest{};                                 // along the axis; minus infinity unless one-sided and flat
     Lanes is_two_sided{};                           // 1 or 0
     Lanes intensity{};                              // 0: no child
     std::array<std::uint32_t, width> child{};       // a node or, if a leaf, a light

@@ -38,6 +38,7 @@ LightBounds MeshEmitter::bounds(std::uint32_t triangle) const {
   const bool is_turned = (front > 0) == is_mirrored_;
   bounds.axis = Vec3f(across * ((is_turned ? -1 : 1) / twice_area));
   bounds.cos_normals = 1;
+  bounds.lowest = height_along(bounds.axis, corners.p0);
   bounds.is_two_sided = front > 0 && back > 0;
   const double intensity = std::max(front, back) * twice_area / 2;
   bounds.intensity = static_cast<float>(std::min<double>(intensity, std::numeric_limits<float>::max()));

@@ -48,6 +48,20 @@ class Sampler {
     if (is_random) return {to_unit_float(high(bits)), to_unit_float(low(bits))};
     return sobol_2d(shuffled_sample(bits), high(bits), low(bits));
   }
+  // A pair and a number to choose by: the pairs that come with the same choice are spread evenly too, which those of
+  // two draws are not.
+  struct ChoiceAndPair {
+    float choice;
+    Vec2f u;
+  };
+  [[nodiscard]] ChoiceAndPair next_choice() {
+    const bool is_random = draws_random();
+    const std::uint64_t bits = next_bits(is_random);
+    const std::uint32_t more = high(hash(bits));
+    if (is_random) return {to_unit_float(more), {to_unit_float(high(bits)), to_unit_float(low(bits))}};
+    const std::uint32_t index = shuffled_sample(bits);
+    return {sobol_third(index, more), sobol_2d(index, high(bits), low(bits))};
+  }
 
   // Bits that no number drawn shows, others for each path and after each number.
   [[nodiscard]] std::uint64_t fingerprint() const {

@@ -54,7 +54,7 @@ struct RenderSettings {
   // Path: scatterings of each kind after which a path ends, counted as Blender does.
   int max_bounces = 12, diffuse_bounces = 4, glossy_bounces = 4, transmission_bounces = 12, transparent_bounces = 8;
   int volume_bounces = 0;
-  float roulette_threshold = 0.5f;  // paths with less throughput than this are ended by chance
+  float roulette_threshold = 0.2f;  // paths with less throughput than this are ended by chance
   float light_threshold = 0;        // light samples that would add less than this are left out by chance; 0 is none
   float clamp_direct = 0, clamp_indirect = 0;  // the most that a path adds, as the mean of r, g and b; 0 is none
   float blur_glossy = 0;                       // see PathIntegrator::soften; 0 is none

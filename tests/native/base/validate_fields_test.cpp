@@ -19,9 +19,9 @@ struct Lamp {
   float reach = INFINITY;
   bool is_on = true;
   static constexpr auto fields() {
-    return std::tuple{field("share", &Lamp::share, "", within(0, 1)), field("color", &Lamp::color, "", at_least(0)),
-                      field("count", &Lamp::count, "", within(1, 8)),
-                      field("reach", &Lamp::reach, "", above_or_infinite(0)), field("on", &Lamp::is_on, "")};
+    return fields_of(field("share", &Lamp::share, "", within(0, 1)), field("color", &Lamp::color, "", at_least(0)),
+                     field("count", &Lamp::count, "", within(1, 8)),
+                     field("reach", &Lamp::reach, "", above_or_infinite(0)), field("on", &Lamp::is_on, ""));
   }
 };
 

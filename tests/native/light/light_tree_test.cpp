@@ -27,6 +27,11 @@ std::vector<LightBounds> random_lights(int count, Rng& rng) {
     light.cos_normals = i % 3 == 0 ? -1.0f : i % 3 == 1 ? 1.0f : 0.7f;
     light.cos_emission = i % 4 == 0 ? 0.9f : 0;
     light.is_two_sided = i % 3 == 1 && i % 2 == 0;
+    if (i % 6 == 1) {  // flat
+      light.axis = {0, 0, i % 12 == 1 ? 1.0f : -1.0f};
+      light.box = {place, place + Vec3f(size, 3 * size, 0)};
+      light.lowest = height_along(light.axis, Vec3d(place));
+    }
     light.is_solid = i % 5 == 0;
     light.intensity = std::pow(10.0f, 4 * next_unit_float(rng) - 2);
     lights.push_back(light);
@@ -120,6 +125,21 @@ TEST(LightTree, lights_behind_the_surface_or_turned_away_are_not_chosen) {
   EXPECT_NEAR(tree.probability(0, point), 1, 1e-6);
   EXPECT_EQ(tree.probability(1, point), 0);
   EXPECT_EQ(tree.probability(2, point), 0);
+}
+
+// Where the ball around a large light says nothing any more.
+TEST(LightTree, close_behind_a_large_flat_light_only_others_are_chosen) {
+  LightBounds large{.box = {{-2, -2, 1}, {2, 2, 1}}, .axis = {0, 0, 1}, .cos_normals = 1, .intensity = 1};
+  large.lowest = height_along(large.axis, {2, 2, 1});
+  const LightBounds bulb{.box = {{0, 0, 2}, {0, 0, 2}}, .intensity = 1};
+  const LightTree tree({large, bulb});
+  EXPECT_EQ(tree.probability(0, {{0, 0, 0.9f}, {0, 0, 1}}), 0);
+  EXPECT_EQ(tree.probability(0, {{5, 1, 0.9f}, {0, 0, 1}}), 0);
+  EXPECT_GT(tree.probability(0, {{0, 0, 1.1f}, {0, 0, -1}}), 0.1);
+  // Above it, but facing away.
+  EXPECT_EQ(tree.probability(0, {{0, 0, 1.1f}, {0, 0, 1}}), 0);
+  large.is_two_sided = true;
+  EXPECT_GT(LightTree({large, bulb}).probability(0, {{0, 0, 0.9f}, {0, 0, 1}}), 0.1);
 }
 
 TEST(LightTree, the_one_light_that_matters_is_chosen_often) {

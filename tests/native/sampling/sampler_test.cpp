@@ -78,6 +78,42 @@ TEST(Sampler, every_draw_is_stratified_over_each_power_of_two_of_samples) {
   }
 }
 
+TEST(Sampler, pairs_that_come_with_a_choice_are_spread_evenly_for_each) {
+  constexpr int count = 64, per_choice = count / 2;
+  for (int pixel = 0; pixel < 10; ++pixel) {
+    for (int draw = 0; draw < 12; ++draw) {
+      std::vector<int> choices(count), pairs(count), cells_of_choice(per_choice);
+      for (int i = 0; i < count; ++i) {
+        Sampler sampler = Sampler(SamplerKind::sobol, {pixel, 7}, seed).at_sample(static_cast<std::uint32_t>(i));
+        for (int skipped = 0; skipped < draw; ++skipped) (void)sampler.next_1d();
+        const auto [choice, u] = sampler.next_choice();
+        ++choices[cell_of(choice, count)];
+        ++pairs[8 * cell_of(u.y, 8) + cell_of(u.x, 8)];
+        ++cells_of_choice[(cell_of(choice, 2) * 4 + cell_of(u.y, 4)) * 4 + cell_of(u.x, 4)];
+      }
+      EXPECT_EQ(choices, std::vector<int>(count, 1)) << "draw " << draw;
+      EXPECT_EQ(pairs, std::vector<int>(count, 1)) << "draw " << draw;
+      ASSERT_EQ(cells_of_choice, std::vector<int>(per_choice, 2)) << "draw " << draw;
+    }
+  }
+}
+
+// Over pixels, where nothing is spread: the three numbers' cells, 8 x 8 x 8, are met alike.
+TEST(Sampler, choices_and_pairs_are_unrelated_over_pixels) {
+  for (const SamplerKind kind : kinds) {
+    for (const std::uint32_t sample : {0u, 17u}) {
+      std::vector<int> counts(512);
+      for (int i = 0; i < 256 * 256; ++i) {
+        Sampler sampler = Sampler(kind, {i & 255, i >> 8}, seed).at_sample(sample);
+        (void)sampler.next_2d();
+        const auto [choice, u] = sampler.next_choice();
+        ++counts[64 * cell_of(choice, 8) + 8 * cell_of(u.y, 8) + cell_of(u.x, 8)];
+      }
+      EXPECT_GT(uniform_p_value(counts), test::sidak_threshold(4)) << name(kind) << ", sample " << sample;
+    }
+  }
+}
+
 TEST(Sampler, pairs_are_uniform_over_pixels) {
   for (const SamplerKind kind : kinds) {
     for (const int n : {0, 1, 5}) {

@@ -36,6 +36,44 @@ TEST(Sobol, second_dimension_is_pascals_triangle) {
   }
 }
 
+// By the definition: direction numbers m of the polynomial x^2 + x + 1, m_k = 2 m_(k-1) ^ 4 m_(k-2) ^ m_(k-2), from 1 and 3.
+TEST(Sobol, third_dimension_is_that_of_its_polynomial) {
+  std::array<std::uint64_t, 32> m{1, 3};
+  for (std::size_t k = 2; k < 32; ++k) m[k] = (2 * m[k - 1]) ^ (4 * m[k - 2]) ^ m[k - 2];
+  Rng rng(7);
+  for (int i = 0; i < 10000; ++i) {
+    const std::uint32_t index = i < 5000 ? static_cast<std::uint32_t>(i) : next_seed(rng);
+    std::uint32_t sum = 0;
+    for (std::size_t bit = 0; bit < 32; ++bit)
+      if (index >> bit & 1) sum ^= static_cast<std::uint32_t>(m[bit] << (31 - bit));
+    ASSERT_EQ(reverse_bits(third_product(index)), sum) << index;
+  }
+}
+
+// What a choice between a few things leaves of the points for each of them: one in each of half as many rectangles, or
+// two.
+TEST(Sobol, points_of_one_choice_are_spread_evenly) {
+  Rng rng(8);
+  for (int round = 0; round < 20; ++round) {
+    const std::uint32_t seed_x = next_seed(rng), seed_y = next_seed(rng), seed_third = next_seed(rng);
+    constexpr int count = 256;
+    for (const int choices : {2, 4}) {
+      for (int k = 0; k <= 5; ++k) {
+        const int columns = 1 << k, rows = count / choices / 2 / columns;
+        if (rows == 0) continue;
+        std::vector<int> hits(count / 2);
+        for (std::uint32_t i = 0; i < count; ++i) {
+          const Vec2f p = sobol_2d(i, seed_x, seed_y);
+          const auto chosen = static_cast<int>(sobol_third(i, seed_third) * static_cast<float>(choices));
+          ++hits[(chosen * rows + static_cast<int>(p.y * static_cast<float>(rows))) * columns +
+                 static_cast<int>(p.x * static_cast<float>(columns))];
+        }
+        for (const int hit : hits) ASSERT_EQ(hit, 2) << choices << " choices, " << columns << " x " << rows;
+      }
+    }
+  }
+}
+
 TEST(Sobol, reversing_bits_twice_changes_nothing) {
   EXPECT_EQ(reverse_bits(std::uint32_t{1}), 0x80000000u);
   EXPECT_EQ(reverse_bits(std::uint64_t{0xd}), 0xb000000000000000u);
