@@ -64,6 +64,14 @@ def shown_warnings() -> tuple[str, ...]:
     return _LatestWarnings.texts
 
 
+def refuse_warnings(report: Report) -> None:
+    """For who wants all of a scene or none. Raises ExportError where there are warnings."""
+    if report.warnings:
+        raise ExportError(
+            f"not all is as in Blender, which Fail on Warnings asks for: {summary(report)}"
+        )
+
+
 def summary(report: Report) -> str:
     """One line for the status bar."""
     first, *others = report.warnings

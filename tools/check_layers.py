@@ -39,6 +39,7 @@ ADDON_RANKS = {
     "properties": 1,
     "preferences": 1,
     "report": 2,
+    "culprit": 2,
     "nodes": 3,
     "export": 4,
     "sync": 5,

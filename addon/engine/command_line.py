@@ -7,7 +7,7 @@ import argparse
 import difflib
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NoReturn
 
 import bpy
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import basicrt
 
 _PREFIX = "--basicrt-"
+_STRICT = f"{_PREFIX}strict"
 
 
 @dataclass(frozen=True)
@@ -29,9 +30,10 @@ class Overrides:
     threads: int | None = None  # 0 is one for each processor
     samples_from: int | None = None
     samples_to: int | None = None
+    fails_on_warnings: bool = False
 
     def apply(self, settings: basicrt.RenderSettings, b_scene: bpy.types.Scene) -> None:
-        """Put them into exported settings; threads are none."""
+        """Put them into exported settings; threads and warnings are none."""
         from ..export.settings import seed_of_frame
 
         if self.samples is not None:
@@ -80,9 +82,9 @@ def parse(arguments: Sequence[str]) -> Overrides:
     Raises ExportError for a flag or a value that there can't be; others' flags are left alone.
     """
     parser = _Parser(add_help=False, allow_abbrev=False)
-    for field in fields(Overrides):
-        convert = _whole_number(*_LIMITS[field.name])
-        parser.add_argument(_flag(field.name), dest=field.name, type=convert, metavar="NUMBER")
+    for name, limits in _LIMITS.items():
+        parser.add_argument(_flag(name), dest=name, type=_whole_number(*limits), metavar="NUMBER")
+    parser.add_argument(_STRICT, dest="fails_on_warnings", action="store_true")
     behind = arguments[arguments.index("--") + 1 :] if "--" in arguments else ()
     known, others = parser.parse_known_args(behind)
     for other in others:
@@ -96,15 +98,10 @@ def _flag(name: str) -> str:
 
 
 def _unknown(flag: str) -> str:
-    names = [field.name for field in fields(Overrides)]
-    given = flag.removeprefix(_PREFIX).replace("-", "_")
-    nearest = difflib.get_close_matches(given, names, n=1)
-    advice = f"did you mean {_flag(nearest[0])}?" if nearest else _all_flags(names)
+    flags = [*map(_flag, _LIMITS), _STRICT]
+    nearest = difflib.get_close_matches(flag, flags, n=1, cutoff=0.8)
+    advice = f"did you mean {nearest[0]}?" if nearest else f"there are {', '.join(flags)}"
     return f"{flag}: unknown option; {advice}"
-
-
-def _all_flags(names: Sequence[str]) -> str:
-    return f"there are {', '.join(map(_flag, names))}"
 
 
 def overrides() -> Overrides:

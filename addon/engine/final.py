@@ -12,7 +12,15 @@ import bpy
 
 from .. import compat
 from ..properties import settings_of
-from ..report import HeldReport, Report, caught, show_warnings, summary
+from ..report import (
+    ExportError,
+    HeldReport,
+    Report,
+    caught,
+    refuse_warnings,
+    show_warnings,
+    summary,
+)
 from . import command_line
 from .denoise import LayerDenoiser, can_denoise
 from .result import NOISY_PASS, ResultWriter, complete_without_pixels
@@ -109,6 +117,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
                 self.baking = ObjectBake(
                     self, depsgraph, self.overrides, self.warnings, self._is_cancelled
                 )
+            self._check_warnings(depsgraph.scene)
             plan = convert_plan(depsgraph.scene, pass_type, pass_filter)
             self.baking.bake_image(b_object, plan, width, height)
 
@@ -202,6 +211,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         self.exported = scene_sync.export(depsgraph, evaluated, self.warnings, self.frame_set)
         self.overrides.apply(self.exported.scene.settings, depsgraph.scene)
         show_warnings(self.warnings)
+        self._check_warnings(depsgraph.scene)
 
     def _export_preview(self, depsgraph: Any, b_camera: Any) -> None:
         """What is not as in Blender is told where the scene itself is rendered."""
@@ -295,8 +305,18 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
             ),
         )
         if self.warnings.warnings:
+            try:
+                self._check_warnings(b_scene)
+            except ExportError:
+                session.stop()
+                raise
             self.report({"WARNING"}, summary(self.warnings))
         return session
+
+    def _check_warnings(self, b_scene: Any) -> None:
+        """Raises ExportError where there are some and the user wants none."""
+        if self.overrides.fails_on_warnings or settings_of(b_scene).fail_on_warnings:
+            refuse_warnings(self.warnings)
 
     def _threads(self, b_scene: Any) -> int:
         """How many there are to be; 0 is one for each processor."""

@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
-from . import cycles_settings, export_scene
+from . import cycles_settings, export_scene, select_culprit
 
 
 def register() -> None:
     """Add the operators and their menu entries."""
     export_scene.register()
     cycles_settings.register()
+    select_culprit.register()
 
 
 def unregister() -> None:
     """Take them away."""
+    select_culprit.unregister()
     cycles_settings.unregister()
     export_scene.unregister()

@@ -107,6 +107,7 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         bake_type: str
         tile_size: int
         bvh_builder: str
+        fail_on_warnings: bool
     else:
         use_cycles_settings: BoolProperty(
             name="Use Cycles Settings",
@@ -319,4 +320,9 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
             "not depend on it",
             items=BVH_BUILDERS,
             default="BINNED_SAH",
+        )
+        fail_on_warnings: BoolProperty(
+            name="Fail on Warnings",
+            description="Make no picture, final or baked, of what can't be drawn as Blender means it",
+            default=False,
         )

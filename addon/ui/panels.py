@@ -8,6 +8,7 @@ from typing import Any
 
 import bpy
 
+from ..culprit import find_culprit
 from ..engine.denoise import is_installed
 from ..properties import settings_of
 from ..properties.choice import Choice, has_cycles
@@ -221,11 +222,18 @@ class BASICRT_RENDER_PT_warnings(_Panel, bpy.types.Panel):
     def draw(self, context: Any) -> None:
         """Blender's callback."""
         # A label is one line, cut in its middle where it is too long; a letter is 7 pixels wide.
-        width = context.region.width / (7 * context.preferences.system.ui_scale) - 8
+        width = context.region.width / (7 * context.preferences.system.ui_scale) - 12
+        self.layout.prop(settings_of(context.scene), "fail_on_warnings")
         for text in shown_warnings():
-            column = self.layout.column(align=True)
+            row = self.layout.row()
+            column = row.column(align=True)
             for index, line in enumerate(textwrap.wrap(text, max(int(width), 20))):
                 column.label(text=line, icon="BLANK1" if index else "ERROR")
+            if find_culprit(text):
+                button: Any = row.operator(
+                    "basicrt.select_culprit", text="", icon="RESTRICT_SELECT_OFF"
+                )
+                button.warning = text
 
 
 class BASICRT_VIEWLAYER_PT_passes(_Panel, bpy.types.Panel):

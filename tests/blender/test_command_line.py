@@ -50,6 +50,7 @@ def test_every_flag_is_read() -> None:
         "7",
     ]
     assert parse(given) == Overrides(samples=64, threads=2, seed=7)
+    assert parse(["--", "--basicrt-strict"]) == Overrides(fails_on_warnings=True)
     given = ["--", "--basicrt-samples-from", "64", "--basicrt-samples-to", "128"]
     assert parse(given) == Overrides(samples_from=64, samples_to=128)
 

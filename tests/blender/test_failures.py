@@ -202,3 +202,44 @@ def test_empty_scene_is_a_picture_of_the_world(tmp_path: Path) -> None:
     new_scene(8, 8)
     add_camera()
     assert (render(tmp_path)[..., :3] == 0).all()
+
+
+def add_wax() -> None:
+    add_camera()
+    add_plane(material=new_material("ShaderNodeBsdfRayPortal", "Wax"))
+
+
+def add_sliver() -> None:
+    """What only the core finds, once trees are built."""
+    add_camera()
+    add_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (2, 0, 0)], [(0, 1, 2), (0, 1, 3)])
+
+
+@pytest.mark.parametrize(
+    ("fill", "expected"), [(add_wax, 'node "Ray Portal BSDF"'), (add_sliver, "have no area")]
+)
+def test_fail_on_warnings_makes_no_picture(
+    picture: Path, fill: Callable[[], None], expected: str
+) -> None:
+    fill()
+    bpy.context.scene.basicrt.fail_on_warnings = True
+    message = fail_to_render()
+    assert "Fail on Warnings" in message
+    assert expected in message
+    assert len(shown_warnings()) == 1
+
+
+def test_fail_on_warnings_by_the_command_line(
+    picture: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    add_wax()
+    monkeypatch.setattr(sys, "argv", ["blender", "--", "--basicrt-strict"])
+    assert 'node "Ray Portal BSDF"' in fail_to_render()
+
+
+def test_fail_on_warnings_lets_others_pass(tmp_path: Path) -> None:
+    new_scene(8, 8)
+    add_camera()
+    set_world((0.5, 0.5, 0.5))
+    bpy.context.scene.basicrt.fail_on_warnings = True
+    assert (render(tmp_path)[..., 0] == 0.5).all()

@@ -34,7 +34,7 @@ def test_settings_have_defaults_descriptions_and_survive_a_file(tmp_path: Any) -
     scene = new_scene()
     properties = type(scene.basicrt).bl_rna.properties
     own = [p for p in properties if p.identifier not in {"rna_type", "name"}]
-    assert len(own) == 34
+    assert len(own) == 35
     assert all(p.description for p in own)
     scene.basicrt.samples = 77
     path = str(tmp_path / "file.blend")

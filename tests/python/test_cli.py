@@ -174,6 +174,16 @@ def test_warnings_are_one_line_each(scene_path: Path) -> None:
     assert "[3]" in done.stderr
 
 
+def test_strict_turns_warnings_into_failures(scene_path: Path) -> None:
+    scene = still_life(samples=1)
+    scene.instances.append(basicrt.Instance(scene.shapes.append(basicrt.Mesh([], []))))
+    scene.save(scene_path)
+    done = run("render", scene_path, "-o", scene_path.parent / "out.exr", "-q", "--strict")
+    assert done.returncode == 1
+    assert re.fullmatch(r"basicrt: .*\[3\].*\n", done.stderr), done.stderr
+    assert not (scene_path.parent / "out.exr").exists()
+
+
 def test_compare_prints_all_metrics(tmp_path: Path) -> None:
     picture = np.random.default_rng(1).random((16, 16, 4)).astype(np.float32)
     basicrt.write_exr(tmp_path / "a.exr", {"Combined": picture})

@@ -34,11 +34,13 @@ def render_blend(
     samples_from: int | None = None,
     samples_to: int | None = None,
     use_denoising: bool = False,
+    is_strict: bool = False,
 ) -> None:
     """Renders the file's scene as Blender would: an .exr scene-linear in 32 bits, a .png with its view transform.
 
     What is None (or `threads` 0, `use_denoising` False) stays as the file has it. The output appears whole or not at
-    all. Raises BlenderError, and KeyboardInterrupt where that is why there is no picture.
+    all; with `is_strict` not at all where anything would not be as in Blender. Raises BlenderError, and
+    KeyboardInterrupt where that is why there is no picture.
     """
     if not blend.is_file():
         raise BlenderError(f"{blend}: no such file")
@@ -49,6 +51,7 @@ def render_blend(
         "threads": threads or None,
         "samples_from": samples_from,
         "samples_to": samples_to,
+        "fails_on_warnings": is_strict,
     }
     with _registered_add_on(given), _silent_stdout(), _interrupts_told_from_failures():
         _call(bpy.ops.wm.open_mainfile, filepath=str(blend.resolve()), load_ui=False)
@@ -126,7 +129,7 @@ def _interrupts_told_from_failures() -> Iterator[None]:
 
 
 @contextmanager
-def _registered_add_on(given: Mapping[str, int | None]) -> Iterator[None]:
+def _registered_add_on(given: Mapping[str, int | bool | None]) -> Iterator[None]:
     """The engine in Blender, with the settings that are given.
 
     Blender 4.2 crashes and 4.5 hangs at exit where it is still registered then.

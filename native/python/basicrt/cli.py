@@ -38,7 +38,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _show_scene_warnings()
     try:
         status: int = options.command(options)
-    except (CommandError, basicrt.SceneError, basicrt.DenoiserError, OSError) as error:
+    except (
+        CommandError,
+        basicrt.SceneError,
+        basicrt.SceneWarning,  # of --strict
+        basicrt.DenoiserError,
+        OSError,
+    ) as error:
         print(f"basicrt: {error}", file=sys.stderr)
         return 1
     except MemoryError:
@@ -78,6 +84,11 @@ def _make_parser() -> argparse.ArgumentParser:
         "--denoise",
         action="store_true",
         help="with Open Image Denoise; an .exr keeps the noisy picture as Noisy Image",
+    )
+    render.add_argument(
+        "--strict",
+        action="store_true",
+        help="make no picture where something would not be as the scene says",
     )
     render.add_argument("--override", help="JSON merged into a scene.json (RFC 7386)")
     render.add_argument("-q", "--quiet", action="store_true", help="show no progress")
@@ -141,6 +152,8 @@ def _render(options: argparse.Namespace) -> int:
 def _render_json(options: argparse.Namespace, output: Path) -> None:
     if options.frame is not None:
         raise CommandError("-f: only a .blend has frames")
+    if options.strict:
+        warnings.simplefilter("error", basicrt.SceneWarning)
     scene = basicrt.load_scene(options.scene, override=options.override)
     if options.spp is not None:
         scene.settings.samples = options.spp
@@ -218,6 +231,7 @@ def _render_blend(options: argparse.Namespace, output: Path) -> None:
             samples_from=options.samples_from,
             samples_to=options.samples_to,
             use_denoising=options.denoise,
+            is_strict=options.strict,
         )
     except BlenderError as error:
         raise CommandError(str(error)) from error
