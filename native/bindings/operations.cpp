@@ -50,6 +50,7 @@ void register_operations(py::module_& m) {
   bind_described<WhiteNoiseOperation>(m, "WhiteNoiseOperation", "A random number for each point.");
   bind_described<VoronoiOperation>(m, "VoronoiOperation", "Cells around random points.");
   bind_described<GaborOperation>(m, "GaborOperation", "Waves of one frequency in random places.");
+  bind_described<IesOperation>(m, "IesOperation", "How a luminaire spreads its light.");
 }
 
 }  // namespace basicrt::bindings

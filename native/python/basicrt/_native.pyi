@@ -48,6 +48,7 @@ __all__: list[str] = [
     "HairShader",
     "HoldoutShader",
     "HueSaturationOperation",
+    "IesOperation",
     "Image",
     "ImageTexture",
     "Instance",
@@ -2596,6 +2597,67 @@ class GaborOperation:
         value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
 
+class IesOperation:
+    """
+    How a luminaire spreads its light.
+
+    vector: the direction, of any length: its angles are looked up
+    strength: multiplies the value
+    horizontal: angles about z, from -y towards -x, radians, ascending
+    vertical: angles from -z, radians, ascending
+    values: for each horizontal angle, one for each vertical angle; interpolated by cubics
+    """
+    def __init__(
+        self,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, -1.0),
+        strength: float | TextureRef | OperationRef = 1.0,
+        horizontal: collections.abc.Iterable[float] = [0.0, 6.2831854820251465],
+        vertical: collections.abc.Iterable[float] = [0.0, 3.1415927410125732],
+        values: collections.abc.Iterable[float] = [1.0, 1.0, 1.0, 1.0],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def horizontal(self) -> list[float]:
+        """
+        angles about z, from -y towards -x, radians, ascending
+        """
+    @horizontal.setter
+    def horizontal(self, value: collections.abc.Iterable[float]) -> None: ...
+    @property
+    def strength(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the value
+        """
+    @strength.setter
+    def strength(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def values(self) -> list[float]:
+        """
+        for each horizontal angle, one for each vertical angle; interpolated by cubics
+        """
+    @values.setter
+    def values(self, value: collections.abc.Iterable[float]) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        the direction, of any length: its angles are looked up
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def vertical(self) -> list[float]:
+        """
+        angles from -z, radians, ascending
+        """
+    @vertical.setter
+    def vertical(self, value: collections.abc.Iterable[float]) -> None: ...
+
 class DiffuseShader:
     """
     Diffuse reflection, Lambert's or by a rough surface.
@@ -4333,7 +4395,8 @@ class Material:
         | WhiteNoiseOperation
         | VoronoiOperation
         | GaborOperation
-        | AmbientOcclusionOperation,
+        | AmbientOcclusionOperation
+        | IesOperation,
     ) -> OperationRef:
         """
         Appends an operation, which refers only to those before it, and returns what stands for its value.
@@ -4402,6 +4465,7 @@ class Material:
         | VoronoiOperation
         | GaborOperation
         | AmbientOcclusionOperation
+        | IesOperation
     ]:
         """
         Copies of the operations.
@@ -4444,6 +4508,8 @@ class PointLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+    material: whose emission multiplies the lamp's light, place by place; none: by 1
+    object_transform: local to world, of what the material takes for its object
     """
     def __init__(
         self,
@@ -4459,6 +4525,8 @@ class PointLight:
         casts_shadows: bool = True,
         max_bounces: int = 1024,
         light_group: int = 0,
+        material: int | None = None,
+        object_transform: numpy.typing.ArrayLike = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4506,12 +4574,26 @@ class PointLight:
     @light_group.setter
     def light_group(self, value: int) -> None: ...
     @property
+    def material(self) -> int | None:
+        """
+        whose emission multiplies the lamp's light, place by place; none: by 1
+        """
+    @material.setter
+    def material(self, value: int | None) -> None: ...
+    @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
     def max_bounces(self, value: int) -> None: ...
+    @property
+    def object_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        local to world, of what the material takes for its object
+        """
+    @object_transform.setter
+    def object_transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def position(self) -> tuple[float, float, float]:
         """
@@ -4566,6 +4648,8 @@ class SpotLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+    material: whose emission multiplies the lamp's light, place by place; none: by 1
+    object_transform: local to world, of what the material takes for its object
     """
     def __init__(
         self,
@@ -4583,6 +4667,8 @@ class SpotLight:
         casts_shadows: bool = True,
         max_bounces: int = 1024,
         light_group: int = 0,
+        material: int | None = None,
+        object_transform: numpy.typing.ArrayLike = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4644,12 +4730,26 @@ class SpotLight:
     @light_group.setter
     def light_group(self, value: int) -> None: ...
     @property
+    def material(self) -> int | None:
+        """
+        whose emission multiplies the lamp's light, place by place; none: by 1
+        """
+    @material.setter
+    def material(self, value: int | None) -> None: ...
+    @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
     def max_bounces(self, value: int) -> None: ...
+    @property
+    def object_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        local to world, of what the material takes for its object
+        """
+    @object_transform.setter
+    def object_transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def radius(self) -> float:
         """
@@ -4701,6 +4801,8 @@ class SunLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+    material: whose emission multiplies the lamp's light, place by place; none: by 1
+    object_transform: local to world, of what the material takes for its object
     """
     def __init__(
         self,
@@ -4715,6 +4817,8 @@ class SunLight:
         casts_shadows: bool = True,
         max_bounces: int = 1024,
         light_group: int = 0,
+        material: int | None = None,
+        object_transform: numpy.typing.ArrayLike = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4778,12 +4882,26 @@ class SunLight:
     @light_group.setter
     def light_group(self, value: int) -> None: ...
     @property
+    def material(self) -> int | None:
+        """
+        whose emission multiplies the lamp's light, place by place; none: by 1
+        """
+    @material.setter
+    def material(self, value: int | None) -> None: ...
+    @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
     def max_bounces(self, value: int) -> None: ...
+    @property
+    def object_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        local to world, of what the material takes for its object
+        """
+    @object_transform.setter
+    def object_transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def transmission_visible(self) -> bool:
         """
@@ -4815,6 +4933,8 @@ class AreaLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+    material: whose emission multiplies the lamp's light, place by place; none: by 1
+    object_transform: local to world, of what the material takes for its object
     """
     def __init__(
         self,
@@ -4830,6 +4950,8 @@ class AreaLight:
         casts_shadows: bool = True,
         max_bounces: int = 1024,
         light_group: int = 0,
+        material: int | None = None,
+        object_transform: numpy.typing.ArrayLike = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4875,12 +4997,26 @@ class AreaLight:
     @light_group.setter
     def light_group(self, value: int) -> None: ...
     @property
+    def material(self) -> int | None:
+        """
+        whose emission multiplies the lamp's light, place by place; none: by 1
+        """
+    @material.setter
+    def material(self, value: int | None) -> None: ...
+    @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
     def max_bounces(self, value: int) -> None: ...
+    @property
+    def object_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        local to world, of what the material takes for its object
+        """
+    @object_transform.setter
+    def object_transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
