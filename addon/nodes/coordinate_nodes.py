@@ -96,6 +96,8 @@ def surface(of: Operands, kind: str, value: str) -> Value:
     """Something of the point that is shaded."""
     if of.view.translation.is_world:
         value = _IN_WORLDS.get(value, value)
+    if of.view.translation.lamp is not None and value == "generated":
+        value = "object_position"
     return of.add(kind, basicrt.SurfaceOperation(value=value))
 
 
@@ -289,7 +291,16 @@ def particle_info(of: Operands, output: str) -> Value:
 @operation("ShaderNodeObjectInfo")
 def object_info(of: Operands, output: str) -> Value | None:
     """Of the object."""
-    return _from_table(of, output, _OBJECT)
+    lamp = of.view.translation.lamp
+    if lamp is None or output in ("Location", "Material Index"):
+        return _from_table(of, output, _OBJECT)
+    values = {
+        "Color": Value("color", lamp.color),
+        "Alpha": Value("number", lamp.alpha),
+        "Object Index": Value("number", float(lamp.pass_index)),
+        "Random": Value("number", lamp.random),
+    }
+    return values.get(output)
 
 
 @operation("ShaderNodeCameraData")
@@ -318,6 +329,9 @@ def light_falloff(of: Operands, output: str) -> Value | None:
         return of.add("number", basicrt.MathOperation(operation=operation, a=a, b=b)).data
 
     strength, smooth = of.number("Strength"), of.number("Smooth")
+    lamp = of.view.translation.lamp
+    if lamp is not None and lamp.kind == "SUN":
+        return Value("number", strength)  # its light comes from infinitely far and doesn't fade
     power = {"Quadratic": 0, "Linear": 1, "Constant": 2}[output]
     if isinstance(smooth, float) and smooth <= 0.0 and power == 0:
         return Value("number", strength)

@@ -102,6 +102,7 @@ class Instances:
         self._materials: dict[int, int] = {}  # by the material's number
         self._known: dict[Key, _Known | None] = {}  # None: it is none of ours, or has no faces
         self._lights: dict[Key, int] = {}  # in Scene.lights
+        self._lamp_materials: dict[Key, int] = {}  # in Scene.materials
         self._object_names: dict[int, str] = {}
         self._hairy: set[int] = set()  # the numbers of objects that hair grows on
         self._instanced: set[int] = (
@@ -167,7 +168,7 @@ class Instances:
             found.append(evaluated)
         for evaluated in found:
             key = (uid(evaluated), 0, ())
-            if key in self._lights and not self._touch_light(evaluated, self._lights[key]):
+            if key in self._lights and not self._touch_light(key, evaluated):
                 return False
             known = self._known[key]
             if known is None:
@@ -275,23 +276,41 @@ class Instances:
         """One placed lamp."""
         if not shown.has_lights:
             return
-        converted = self._convert_light(b_instance.object, b_instance.matrix_world)
+        converted = self._convert_light(key, b_instance)
         if converted is not None:
             self._lights[key] = self._scene.lights.append(converted)
 
-    def _touch_light(self, b_object: Any, index: int) -> bool:
+    def _touch_light(self, key: Key, b_object: Any) -> bool:
         """A lamp that changed; False where it does not shine any more."""
-        converted = self._convert_light(b_object, b_object.matrix_world)
+        converted = self._convert_light(key, Placed(b_object))
         if converted is not None:
-            self._scene.lights[index] = converted
+            self._scene.lights[self._lights[key]] = converted
         return converted is not None
 
-    def _convert_light(self, b_object: Any, matrix: Matrix) -> Any:
+    def _convert_light(self, key: Key, b_instance: Any) -> Any:
         """A lamp, None where it doesn't shine."""
-        converted = light.convert(b_object, matrix, self._report)
-        if converted is not None:
-            converted.light_group = light_groups.number_of(b_object, self._groups)
+        b_object = b_instance.object
+        random = random_number(b_instance)
+        made = light.convert(
+            b_object, b_instance.matrix_world, random, self._report, self._textures
+        )
+        if made is None:
+            return None
+        converted, lamp_material = made
+        converted.light_group = light_groups.number_of(b_object, self._groups)
+        if lamp_material is not None:
+            converted.material = self._put_lamp_material(key, b_object, lamp_material)
         return converted
+
+    def _put_lamp_material(self, key: Key, b_object: Any, lamp_material: basicrt.Material) -> int:
+        """The index of what a lamp's light varies by, in place of what it was."""
+        if key not in self._lamp_materials:
+            self._names["materials"].append(f'light "{b_object.name}"')
+            self._lamp_materials[key] = self._scene.materials.append(lamp_material)
+            return self._lamp_materials[key]
+        index = self._lamp_materials[key]
+        self._scene.materials[index] = lamp_material
+        return index
 
     def _warn(self, b_object: bpy.types.Object, message: str) -> None:
         self._report.warn(f'object "{b_object.name}"', message)
