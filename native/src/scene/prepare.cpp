@@ -309,7 +309,7 @@ Color& light_of(Light& light) {
 }
 
 // A material that is the same everywhere is only a factor; the others are asked about each ray of light.
-std::vector<Lamp> prepare_lamps(const Scene& scene, PreparedScene& prepared) {
+std::vector<Lamp> prepare_lamps(const Scene& scene, PreparedScene& prepared, int threads) {
   std::vector<Lamp> lamps;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     Light light = scene.lights[i];
@@ -325,9 +325,12 @@ std::vector<Lamp> prepare_lamps(const Scene& scene, PreparedScene& prepared) {
       light_of(light) *= emitted_radiance(material, SurfaceSide::front);
     };
     std::visit(prepare_material, light);
-    Lamp& lamp = lamps.emplace_back(light);
-    if (lamp.is_varying) lamp.estimate = estimate_lamp(prepared, of_lamp, lamp, prepared.tracer.bounds());
+    lamps.emplace_back(light);
   }
+  parallel_for(lamps.size(), threads, [&](std::size_t i) {
+    if (lamps[i].is_varying)
+      lamps[i].estimate = estimate_lamp(prepared, prepared.lamp_materials[i], lamps[i], prepared.tracer.bounds());
+  });
   return lamps;
 }
 
@@ -388,7 +391,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   prepared.tracer = Tracer(std::move(trees), std::move(traced), config);
   apply_view(prepared, *scene.camera, scene.settings);
 
-  const std::vector<Lamp> lamps = prepare_lamps(scene, prepared);
+  const std::vector<Lamp> lamps = prepare_lamps(scene, prepared, options.threads);
   std::vector<EmissiveInstance> emitters;
   for (std::uint32_t i = 0; i < prepared.instances.size(); ++i)
     if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i, options.threads))
