@@ -11,7 +11,7 @@ import basicrt
 
 from .. import compat
 from .graph import Place, find_socket, trace
-from .mesh_data import MeshData, Part, Source
+from .mesh_data import MeshData, ObjectData, Part, Source
 from .operations import Operands, Value, as_vector, operation
 
 if TYPE_CHECKING:
@@ -174,9 +174,24 @@ def attribute(of: Operands, output: str) -> Value | None:
     """An attribute of the mesh by name."""
     if of.node.attribute_type == "VIEW_LAYER":
         return _of_view_layer(of, output)
-    if of.node.attribute_type != "GEOMETRY":
-        return None
+    if of.node.attribute_type in ("OBJECT", "INSTANCER"):
+        return _of_object(of, output)
     return _parts(of, Source.ATTRIBUTE, of.node.attribute_name, output)
+
+
+def _of_object(of: Operands, output: str) -> Value | None:
+    """A property of the object, or of what instances it; 0 where there is none."""
+    translation = of.view.translation
+    if translation.is_world or translation.lamp is not None:
+        return None
+    is_alpha = output == "Alpha"
+    asked = ObjectData(of.node.attribute_name, of.node.attribute_type == "INSTANCER", is_alpha)
+    translation.object_data.add(asked)
+    found = of.add("vector", basicrt.ObjectPropertyOperation(name=asked.exported_name))
+    if output == "Fac":
+        mean = basicrt.ComponentOperation(value=found.data, component="average")
+        return of.add("number", mean)
+    return Value("number" if is_alpha else output.lower(), found.data)
 
 
 def _of_view_layer(of: Operands, output: str) -> Value | None:

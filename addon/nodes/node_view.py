@@ -16,7 +16,7 @@ from .. import compat
 from ..report import Report
 from .graph import Groups, Place, find_socket, trace
 from .images import Textures, is_tiled
-from .mesh_data import MeshData
+from .mesh_data import MeshData, ObjectData
 from .operations import OPERATIONS, Value, as_vector, output_value, raw_value, value_at
 from .operations import as_number as number_of
 
@@ -81,6 +81,7 @@ class Translation:
     normal: Color | basicrt.OperationRef = (0.0, 0.0, 0.0)
     # What it asks for of meshes.
     mesh_data: set[MeshData] = field(default_factory=set)
+    object_data: set[ObjectData] = field(default_factory=set)  # and of objects
     # Nodes that are done: one node may feed several others.
     done: dict[tuple[int, ...], NodeIndex] = field(default_factory=dict)
     # The same for the outputs of value nodes.

@@ -82,6 +82,7 @@ def translate_surface(
         aov_output.translate(translation, tree)
         b_original: Any = b_material.original
         store.mesh_data[b_original.session_uid] = frozenset(translation.mesh_data)
+        store.object_data[b_original.session_uid] = frozenset(translation.object_data)
     return material
 
 

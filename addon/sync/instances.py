@@ -20,11 +20,12 @@ from ..export import (
     light_groups,
     material,
     mesh,
+    object_properties,
     points,
     visibility,
 )
 from ..export.identity import random_number, uid
-from ..nodes import MeshData, Textures
+from ..nodes import MeshData, ObjectData, Textures
 from ..report import ExportError, Report
 from .changes import Changes
 from .motion import Key, MotionExport, hair_key, key_of
@@ -111,6 +112,7 @@ class Instances:
         # Of one update, by the numbers of an object and of what instances it, and by the mesh's key.
         self._slots: dict[tuple[int, int], list[int | None]] = {}
         self._asked: dict[tuple[int, int], frozenset[MeshData]] = {}
+        self._asked_of_objects: dict[tuple[int, int], frozenset[ObjectData]] = {}
         self._visibility: dict[tuple[int, int], int] = {}
         self._is_forgotten = False
 
@@ -124,6 +126,7 @@ class Instances:
         self._groups = light_groups.numbers(b_original_layer, self._report)
         self._slots.clear()
         self._asked.clear()
+        self._asked_of_objects.clear()
         self._visibility.clear()
         if changes.shapes:
             may_lack = changes.is_selection
@@ -142,15 +145,20 @@ class Instances:
             key = uid(b_material)
             if key not in wanted:
                 continue
-            asked = self._textures.mesh_data.get(key)
+            asked = self._asked_by(key)
             index = self._materials[key]
             evaluated: Any = b_material.evaluated_get(depsgraph)
             converted = material.convert(evaluated, self._report, self._textures)
             self._scene.materials[index] = converted
             self._names["materials"][index] = f'material "{b_material.name}"'
-            is_same &= asked == self._textures.mesh_data.get(key)
+            is_same &= asked == self._asked_by(key)
             wanted = wanted - {key}
         return is_same and not wanted
+
+    def _asked_by(self, material_number: int) -> tuple[Any, Any]:
+        """What a material asks for of meshes and of objects."""
+        textures = self._textures
+        return textures.mesh_data.get(material_number), textures.object_data.get(material_number)
 
     def touch(self, depsgraph: bpy.types.Depsgraph, changes: Changes) -> bool:
         """Update the objects that changed and nothing else; False where that can't be done."""
@@ -353,6 +361,9 @@ class Instances:
             pass_index=b_object.pass_index,
             asset_name=self._asset_name(b_instance, b_object),
         )
+        asked = self._asked_of_objects[uid(b_object), mesh.key(b_mesh)]
+        if asked:
+            instance.properties = object_properties.convert(b_instance, asked, self._report)
         return instance, shape
 
     def _shape_of(
@@ -412,8 +423,12 @@ class Instances:
             materials = [override] if override else material.slots(b_object, b_mesh)
             self._slots[key] = [self._material(b_material) for b_material in materials]
             data = self._textures.mesh_data
-            asked = [data.get(uid(one), ()) for one in materials if one is not None]
-            self._asked[key] = frozenset().union(*asked)
+            numbers = [uid(one) for one in materials if one is not None]
+            self._asked[key] = frozenset().union(*(data.get(number, ()) for number in numbers))
+            of_objects = self._textures.object_data
+            self._asked_of_objects[key] = frozenset().union(
+                *(of_objects.get(number, ()) for number in numbers)
+            )
         return self._slots[key]
 
     def _material(self, b_material: bpy.types.Material | None) -> int | None:

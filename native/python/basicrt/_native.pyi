@@ -67,6 +67,7 @@ __all__: list[str] = [
     "MultipleScatteringSky",
     "NoiseOperation",
     "NormalMapOperation",
+    "ObjectPropertyOperation",
     "OperationRef",
     "OrthographicCamera",
     "PassInfo",
@@ -1460,6 +1461,30 @@ class AttributeOperation:
     def name(self) -> str:
         """
         of the mesh's attribute
+        """
+    @name.setter
+    def name(self, value: str) -> None: ...
+
+class ObjectPropertyOperation:
+    """
+    A named property of the object.
+
+    name: of the object's property
+    missing: where the object has none of that name
+    """
+    def __init__(self, name: str = "", missing: float = 0.0) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def missing(self) -> float:
+        """
+        where the object has none of that name
+        """
+    @missing.setter
+    def missing(self, value: float) -> None: ...
+    @property
+    def name(self) -> str:
+        """
+        of the object's property
         """
     @name.setter
     def name(self, value: str) -> None: ...
@@ -4396,7 +4421,8 @@ class Material:
         | VoronoiOperation
         | GaborOperation
         | AmbientOcclusionOperation
-        | IesOperation,
+        | IesOperation
+        | ObjectPropertyOperation,
     ) -> OperationRef:
         """
         Appends an operation, which refers only to those before it, and returns what stands for its value.
@@ -4466,6 +4492,7 @@ class Material:
         | GaborOperation
         | AmbientOcclusionOperation
         | IesOperation
+        | ObjectPropertyOperation
     ]:
         """
         Copies of the operations.
@@ -6863,6 +6890,7 @@ class Instance:
     color: for materials that ask
     alpha: of the colour, for materials that ask
     random: in [0, 1], for materials that ask
+    properties: for materials that ask by name; reading gives a copy, assign to change them
     shadow_terminator_offset: cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
     shadow_terminator_shading_offset: how much light is dimmed that grazes the object; in [0, 1]
     pass_index: for the pass Object Index and materials that ask
@@ -6882,6 +6910,7 @@ class Instance:
         color: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
         alpha: float = 1.0,
         random: float = 0.0,
+        properties: collections.abc.Mapping[str, collections.abc.Sequence[float]] = {},
         shadow_terminator_offset: float = 0.0,
         shadow_terminator_shading_offset: float = 0.0,
         pass_index: int = 0,
@@ -6954,6 +6983,15 @@ class Instance:
         """
     @pass_index.setter
     def pass_index(self, value: int) -> None: ...
+    @property
+    def properties(self) -> dict[str, tuple[float, float, float]]:
+        """
+        for materials that ask by name; reading gives a copy, assign to change them
+        """
+    @properties.setter
+    def properties(
+        self, value: collections.abc.Mapping[str, collections.abc.Sequence[float]]
+    ) -> None: ...
     @property
     def random(self) -> float:
         """

@@ -210,6 +210,8 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
   if (instance.info.color != Color(1.0f)) json["color"] = write(instance.info.color);
   if (instance.info.alpha != 1) json["alpha"] = write(instance.info.alpha);
   if (instance.info.random != 0) json["random"] = write(instance.info.random);
+  for (const ObjectProperty& property : instance.info.properties)
+    json["properties"][property.name] = write(property.value);
   if (instance.is_shadow_catcher) json["shadow_catcher"] = true;
   if (instance.shadow_terminator_offset != 0)
     json["shadow_terminator_offset"] = write(instance.shadow_terminator_offset);

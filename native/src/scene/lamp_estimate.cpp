@@ -28,8 +28,9 @@ float estimate_lamp(const PreparedScene& scene, const PreparedScene::LampMateria
     const float distance = is_distant ? infinity : 2 * radius * (static_cast<float>(i) + 0.5f) / count;
     const Vec3f wi = -sample->ray.direction;
     const Vec3f place = is_distant ? center : sample->ray.origin - wi * distance;
-    const Color emission = lamp_emission(
-        scene, of_lamp, {.lamp = lamp, .position = place, .wi = wi, .distance = distance}, [](ShadingContext& context) { context.bounces = 1; });
+    const Color emission =
+        lamp_emission(scene, of_lamp, {.lamp = lamp, .position = place, .wi = wi, .distance = distance},
+                      [](ShadingContext& context) { context.bounces = 1; });
     const float brightness = std::clamp(luminance(emission), 0.0f, 1e30f);
     sum += double(brightness);
     most = std::max(most, brightness);

@@ -222,6 +222,8 @@ void validate_instance(const Scene& scene, std::uint32_t index, const std::vecto
   validate_field(instance.light_group, within(0, light_groups), item, "light_group");
   validate_field(instance.shadow_terminator_offset, within(0, 1), item, "shadow_terminator_offset");
   validate_field(instance.shadow_terminator_shading_offset, within(0, 1), item, "shadow_terminator_shading_offset");
+  for (const ObjectProperty& property : instance.info.properties)
+    validate_field(property.value, {}, item + ".properties", property.name);
   validate_transform(instance.object_to_world, item + ".transform");
   validate_reach(transform_bounds(instance.object_to_world, local), item);
   for (std::size_t key = 0; key < instance.motion_transforms.size(); ++key) {

@@ -25,6 +25,6 @@ using Operation =
                  AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation,
                  BumpOperation, ImageOperation, CheckerOperation, GradientOperation, WaveOperation, MagicOperation,
                  BrickOperation, NoiseOperation, WhiteNoiseOperation, VoronoiOperation, GaborOperation,
-                 AmbientOcclusionOperation, IesOperation>;
+                 AmbientOcclusionOperation, IesOperation, ObjectPropertyOperation>;
 
 }  // namespace basicrt

@@ -94,7 +94,11 @@ Scene make_full_scene() {
                           .materials = {{3}, {}, {2}, {1}, {4}, {0}},
                           .visibility = ray_camera | ray_glossy,
                           .motion_transforms = {Transform{}, transform}});
-  scene.instances.append({.name = "", .shape = {1}, .object_to_world = {}, .materials = {}});
+  scene.instances.append({.name = "",
+                          .shape = {1},
+                          .object_to_world = {},
+                          .materials = {},
+                          .info = {.alpha = 0.3f, .properties = {{"age", {1, 2, 0.1f}}, {"name", Vec3f(0.7f)}}}});
   scene.instances.append({.name = "unseen", .shape = {1}, .object_to_world = {}, .materials = {}, .visibility = 0});
 
   scene.lights.append(PointLight{.position = {0.1f, 2, 3}, .radius = 0.1f, .is_soft = true});
