@@ -7,11 +7,15 @@ with the Python of a virtual environment that has Blender's module and BasicRT (
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import io
+import shutil
 import sys
+import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -31,11 +35,26 @@ HEADER = """\
 What the extension makes of each shader node of Blender {version} in a material: with its defaults, with each
 of its inputs linked, with each of its settings. `tools/node_table.py` writes this page by translating them, and
 `tests/blender/test_node_table.py` holds it against the code. In Blender the render properties list the same
-for a scene. Sky Texture is for the background of a world.
+for a scene. Sky Texture is for the background of a world. Lamps take the same nodes; of shaders those that shine:
+Emission, Principled BSDF, Mix and Add.
 
 | node | drawn | not as in Blender |
 |---|---|---|
 """
+
+
+# Of one candela in all directions below.
+LUMINAIRE = "TILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n1 1\n"
+
+
+@cache
+def luminaire_file() -> str:
+    """The path of a file that says the same, gone when Python ends."""
+    folder = tempfile.mkdtemp()
+    atexit.register(shutil.rmtree, folder)
+    path = Path(folder) / "luminaire.ies"
+    path.write_text(LUMINAIRE, encoding="utf-8")
+    return str(path)
 
 
 @dataclass(frozen=True)
@@ -67,6 +86,18 @@ class Trial:
         if "image" in node.bl_rna.properties:
             node.image = bpy.data.images.new("Image", 2, 2)
         return cls(material, material.node_tree, node)
+
+    def add_luminaire(self) -> None:
+        """Give the node one where it wants it, from where it wants it."""
+        import bpy
+
+        if "ies" not in self.node.bl_rna.properties:
+            return
+        if self.node.mode == "INTERNAL":
+            self.node.ies = bpy.data.texts.new("Luminaire")
+            self.node.ies.write(LUMINAIRE)
+        else:
+            self.node.filepath = luminaire_file()
 
     def show(self, output: str) -> None:
         """Link an output to where it is seen."""
@@ -151,6 +182,7 @@ def row_of(bl_idname: str, name: str) -> Row:
             trial.vary(linked)
         if setting:
             setattr(trial.node, setting, value)
+        trial.add_luminaire()
         enabled = [s.identifier for s in trial.node.outputs if s.enabled]
         trial.show(output if output in enabled else enabled[0])
         return trial.warnings()

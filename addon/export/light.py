@@ -13,15 +13,21 @@ from mathutils import Matrix
 import basicrt
 
 from .. import compat
-from ..nodes import emission_of
+from ..nodes import LampObject, Textures, emission_of
 from ..report import Report
 
 Color = tuple[float, float, float]
 Light = basicrt.PointLight | basicrt.SpotLight | basicrt.SunLight | basicrt.AreaLight
 
 
-def convert(b_object: bpy.types.Object, matrix: Matrix, report: Report) -> Light | None:
-    """The lamp of an evaluated object placed by `matrix`; None where it can't shine."""
+def convert(
+    b_object: bpy.types.Object, matrix: Matrix, random: float, report: Report, textures: Textures
+) -> tuple[Light, basicrt.Material | None] | None:
+    """The lamp of an evaluated object placed by `matrix`; None where it can't shine.
+
+    With a material where its light varies, for the caller to put into the scene and to name in the lamp. `random` is
+    what the Object Info node says.
+    """
     b_light: Any = b_object.data
     item = f'light "{b_object.name}"'
     if compat.is_portal(b_light):
@@ -30,22 +36,37 @@ def convert(b_object: bpy.types.Object, matrix: Matrix, report: Report) -> Light
         )
         return None
     strength = compat.light_strength(b_light)
-    emission = emission_of(b_light, report)
+    red, green, blue, alpha = b_object.color
+    lamp = LampObject(b_light.type, (red, green, blue), alpha, b_object.pass_index, random)
+    emission = emission_of(b_light, report, textures, lamp)
+    material = None
     if emission is not None:
         strength = _times(strength, emission.radiance)
+        material = emission.material
     strength = _positive(strength)
     light = _CONVERTERS[b_light.type](b_light, matrix, strength)
     if light is None:
         report.warn(item, "has no size, and so no light")
-    else:
-        light.camera_visible = b_object.visible_camera
-        light.diffuse_visible = b_object.visible_diffuse
-        light.glossy_visible = b_object.visible_glossy
-        light.transmission_visible = b_object.visible_transmission
-        light.volume_visible = b_object.visible_volume_scatter
-        light.casts_shadows = b_light.use_shadow
-        light.max_bounces = compat.light_max_bounces(b_light)
-    return light
+        return None
+    light.camera_visible = b_object.visible_camera
+    light.diffuse_visible = b_object.visible_diffuse
+    light.glossy_visible = b_object.visible_glossy
+    light.transmission_visible = b_object.visible_transmission
+    light.volume_visible = b_object.visible_volume_scatter
+    light.casts_shadows = b_light.use_shadow
+    light.max_bounces = compat.light_max_bounces(b_light)
+    if material is not None:
+        light.object_transform = _object_transform(matrix)
+    return light, material
+
+
+def _object_transform(matrix: Matrix) -> np.ndarray:
+    """What the lamp's nodes take for the object's; without its scale where that leaves no way back."""
+    full = np.array(matrix, np.float32)
+    if np.linalg.det(full[:3, :3]) != 0.0:
+        return full
+    location, rotation, _scale = matrix.decompose()
+    return np.array(Matrix.LocRotScale(location, rotation, None), np.float32)
 
 
 def _intensity(b_light: Any, strength: Color) -> Color:

@@ -4,13 +4,16 @@
 from __future__ import annotations
 
 from .images import Surroundings, Textures
-from .mesh_data import MeshData, Part, Source
+from .mesh_data import MeshData, ObjectData, Part, Source
+from .node_view import LampObject
 from .translate import Emission, emission_of, translate_surface
 from .world import translate_world, translate_world_volume
 
 __all__ = [
     "Emission",
+    "LampObject",
     "MeshData",
+    "ObjectData",
     "Part",
     "Source",
     "Surroundings",

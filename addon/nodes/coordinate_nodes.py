@@ -11,7 +11,7 @@ import basicrt
 
 from .. import compat
 from .graph import Place, find_socket, trace
-from .mesh_data import MeshData, Part, Source
+from .mesh_data import MeshData, ObjectData, Part, Source
 from .operations import Operands, Value, as_vector, operation
 
 if TYPE_CHECKING:
@@ -96,6 +96,8 @@ def surface(of: Operands, kind: str, value: str) -> Value:
     """Something of the point that is shaded."""
     if of.view.translation.is_world:
         value = _IN_WORLDS.get(value, value)
+    if of.view.translation.lamp is not None and value == "generated":
+        value = "object_position"
     return of.add(kind, basicrt.SurfaceOperation(value=value))
 
 
@@ -172,9 +174,24 @@ def attribute(of: Operands, output: str) -> Value | None:
     """An attribute of the mesh by name."""
     if of.node.attribute_type == "VIEW_LAYER":
         return _of_view_layer(of, output)
-    if of.node.attribute_type != "GEOMETRY":
-        return None
+    if of.node.attribute_type in ("OBJECT", "INSTANCER"):
+        return _of_object(of, output)
     return _parts(of, Source.ATTRIBUTE, of.node.attribute_name, output)
+
+
+def _of_object(of: Operands, output: str) -> Value | None:
+    """A property of the object, or of what instances it; 0 where there is none."""
+    translation = of.view.translation
+    if translation.is_world or translation.lamp is not None:
+        return None
+    is_alpha = output == "Alpha"
+    asked = ObjectData(of.node.attribute_name, of.node.attribute_type == "INSTANCER", is_alpha)
+    translation.object_data.add(asked)
+    found = of.add("vector", basicrt.ObjectPropertyOperation(name=asked.exported_name))
+    if output == "Fac":
+        mean = basicrt.ComponentOperation(value=found.data, component="average")
+        return of.add("number", mean)
+    return Value("number" if is_alpha else output.lower(), found.data)
 
 
 def _of_view_layer(of: Operands, output: str) -> Value | None:
@@ -289,7 +306,16 @@ def particle_info(of: Operands, output: str) -> Value:
 @operation("ShaderNodeObjectInfo")
 def object_info(of: Operands, output: str) -> Value | None:
     """Of the object."""
-    return _from_table(of, output, _OBJECT)
+    lamp = of.view.translation.lamp
+    if lamp is None or output in ("Location", "Material Index"):
+        return _from_table(of, output, _OBJECT)
+    values = {
+        "Color": Value("color", lamp.color),
+        "Alpha": Value("number", lamp.alpha),
+        "Object Index": Value("number", float(lamp.pass_index)),
+        "Random": Value("number", lamp.random),
+    }
+    return values.get(output)
 
 
 @operation("ShaderNodeCameraData")
@@ -318,6 +344,9 @@ def light_falloff(of: Operands, output: str) -> Value | None:
         return of.add("number", basicrt.MathOperation(operation=operation, a=a, b=b)).data
 
     strength, smooth = of.number("Strength"), of.number("Smooth")
+    lamp = of.view.translation.lamp
+    if lamp is not None and lamp.kind == "SUN":
+        return Value("number", strength)  # its light comes from infinitely far and doesn't fade
     power = {"Quadratic": 0, "Linear": 1, "Constant": 2}[output]
     if isinstance(smooth, float) and smooth <= 0.0 and power == 0:
         return Value("number", strength)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 import basicrt
 
-from .mesh_data import MeshData
+from .mesh_data import MeshData, ObjectData
 
 MISSING = (1.0, 0.0, 1.0)  # the colour of an image that can't be had, as in Cycles
 
@@ -73,6 +73,7 @@ class Textures:
         self._indices: dict[Hashable, int] = {}
         # By a material's number: what it asks for of meshes.
         self.mesh_data: dict[int, frozenset[MeshData]] = {}
+        self.object_data: dict[int, frozenset[ObjectData]] = {}  # the same of objects
         self.aovs: dict[str, int] = {}  # the numbers of AOVs by their names
         self.objects: set[int] = set()  # the numbers of those whose place counts for materials
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What materials ask for of the meshes that have them."""
+"""What materials ask for of the meshes and objects that have them."""
 
 from __future__ import annotations
 
@@ -40,3 +40,18 @@ class MeshData:
         """Of the attribute in the core."""
         name = self.name or f"active {self.source}"
         return name if self.part == Part.VECTOR else f"{name}:{self.part}"
+
+
+@dataclass(frozen=True, order=True)
+class ObjectData:
+    """A property of an object that becomes one of its instance's."""
+
+    name: str
+    of_instancer: bool  # what instances it comes first
+    is_alpha: bool = False  # the fourth number, not the first three
+
+    @property
+    def exported_name(self) -> str:
+        """Of the property in the core."""
+        owner = "instancer" if self.of_instancer else "object"
+        return f"{owner}:{self.name}:alpha" if self.is_alpha else f"{owner}:{self.name}"

@@ -16,7 +16,7 @@ from .. import compat
 from ..report import Report
 from .graph import Groups, Place, find_socket, trace
 from .images import Textures, is_tiled
-from .mesh_data import MeshData
+from .mesh_data import MeshData, ObjectData
 from .operations import OPERATIONS, Value, as_vector, output_value, raw_value, value_at
 from .operations import as_number as number_of
 
@@ -51,6 +51,17 @@ def texture(*bl_idnames: str) -> Callable[[TextureFunction], TextureFunction]:
     return register
 
 
+@dataclass(frozen=True)
+class LampObject:
+    """What a lamp's nodes may ask of the object that it is."""
+
+    kind: str  # as Blender calls it: POINT, SUN, SPOT or AREA
+    color: Color = (1.0, 1.0, 1.0)
+    alpha: float = 1.0
+    pass_index: int = 0
+    random: float = 0.0
+
+
 @dataclass
 class Translation:
     """A material in the making."""
@@ -63,10 +74,14 @@ class Translation:
     is_volume: bool = False
     # A world is seen from its middle: its nodes read directions.
     is_world: bool = False
+    # A lamp's nodes see places on the lamp.
+    lamp: LampObject | None = None
+    library: Any = None  # the file that it is linked from
     # What shaders have that nothing is linked to: zero is the surface's own, as it is.
     normal: Color | basicrt.OperationRef = (0.0, 0.0, 0.0)
     # What it asks for of meshes.
     mesh_data: set[MeshData] = field(default_factory=set)
+    object_data: set[ObjectData] = field(default_factory=set)  # and of objects
     # Nodes that are done: one node may feed several others.
     done: dict[tuple[int, ...], NodeIndex] = field(default_factory=dict)
     # The same for the outputs of value nodes.
@@ -89,6 +104,9 @@ class Translation:
 
     def _translate(self, view: NodeView, place: Place) -> NodeIndex:
         """The shader that a node makes; a colour shines, as Blender has it."""
+        if self.lamp is not None and view.bl_idname in SHADERS.keys() - _LAMP_SHADERS:
+            self.warn(f"{view.title} is not supported: black instead")
+            return None
         if view.bl_idname in SHADERS:
             return SHADERS[view.bl_idname](view)
         if view.bl_idname in TEXTURES and not self.is_volume and is_over_uv(view):
@@ -106,6 +124,15 @@ class Translation:
             return None
         self.warn(f"{view.title} is not supported: drawn as diffuse grey")
         return view.add(basicrt.DiffuseShader(color=(0.8, 0.8, 0.8), twosided=True))
+
+
+# Others don't shine.
+_LAMP_SHADERS = {
+    "ShaderNodeEmission",
+    "ShaderNodeBsdfPrincipled",
+    "ShaderNodeMixShader",
+    "ShaderNodeAddShader",
+}
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
+import bpy
 import numpy as np
 
 import basicrt
 
+from . import ies
 from .coordinate_nodes import surface, texture_vector
 from .coordinates import Coordinates, coordinates_at
 from .images import MISSING, ConvertedImage, is_tiled
@@ -133,3 +136,62 @@ def _tiled_lookup(of: Operands, output: str) -> Value:
         looked_up = _lookup(of, converted, inside, output).data
         result = of.add(kind, basicrt.MixOperation(factor=here, a=result.data, b=looked_up))
     return result
+
+
+# What Blender has where there is no photometry.
+_NO_PHOTOMETRY = 100.0
+
+
+@operation("ShaderNodeTexIES")
+def ies_lookup(of: Operands, _output: str) -> Value:
+    """How much light a luminaire sends in a direction."""
+    photometry = _photometry(of)
+    strength = of.number("Strength")
+    if photometry is None:
+        made: Any = basicrt.MathOperation(operation="multiply", a=strength, b=_NO_PHOTOMETRY)
+        return of.add("number", made)
+    vector: Any
+    if of.is_linked("Vector"):
+        vector = of.vector("Vector")
+    else:
+        towards = surface(of, "vector", "incoming").data
+        change = basicrt.ChangeSpaceOperation(
+            vector=towards, source="world", target="object", quantity="normal"
+        )
+        vector = of.add("vector", change).data
+    made = basicrt.IesOperation(
+        vector=vector,
+        strength=strength,
+        horizontal=photometry.horizontal.astype(np.float32),
+        vertical=photometry.vertical.astype(np.float32),
+        values=photometry.values.astype(np.float32).ravel(),
+    )
+    return of.add("number", made)
+
+
+def _photometry(of: Operands) -> ies.Photometry | None:
+    """That of a node's text or file; None, with a warning, where it can't be read."""
+    instead = f"the same in all directions instead, {_NO_PHOTOMETRY:g} times the strength"
+    if of.node.mode == "INTERNAL":
+        if of.node.ies is None:
+            of.view.warn(f"has no text: {instead}")
+            return None
+        source, text = f'text "{of.node.ies.name}"', of.node.ies.as_string()
+    elif not of.node.filepath:
+        of.view.warn(f"has no file: {instead}")
+        return None
+    else:
+        library = of.node.id_data.library or of.view.translation.library
+        path = bpy.path.abspath(of.node.filepath, library=library)
+        source = f'file "{path}"'
+        try:
+            text = Path(path).read_text("utf-8", "replace")
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            of.view.warn(f"{source} can't be read ({reason}): {instead}")
+            return None
+    try:
+        return ies.parse(text)
+    except ies.IesError as error:
+        of.view.warn(f"{source} is not an IES file ({error}): {instead}")
+        return None

@@ -16,7 +16,7 @@ from . import aov_output, coordinate_nodes, math_nodes, pattern_nodes, shaders, 
 from .coordinate_nodes import displacement_normal
 from .graph import Place, find_socket, trace
 from .images import Textures
-from .node_view import Color, NodeView, Translation, scaled, unit
+from .node_view import Color, LampObject, NodeView, Translation, scaled, unit
 
 # Imported to fill the tables of functions.
 assert coordinate_nodes
@@ -29,9 +29,16 @@ assert volumes
 
 @dataclass(frozen=True)
 class Emission:
-    """What an emission node gives off: colour times strength."""
+    """What the nodes of a lamp make of its light: a factor, or a material that says it place by place."""
 
-    radiance: Color
+    radiance: Color = (1.0, 1.0, 1.0)
+    material: basicrt.Material | None = None
+
+
+def _library(b_id: bpy.types.ID) -> Any:
+    """The file that a datablock is linked from; None for this one."""
+    b_original: Any = b_id.original
+    return b_original.library
 
 
 def output_place(tree: bpy.types.ShaderNodeTree, identifier: str) -> Place | None:
@@ -61,7 +68,8 @@ def translate_surface(
             color = unit((float(red), float(green), float(blue)))
             material.surface = material.add(basicrt.DiffuseShader(color=color, twosided=True))
             return material
-        translation = Translation(f'material "{b_material.name}"', report, material, store)
+        item = f'material "{b_material.name}"'
+        translation = Translation(item, report, material, store, library=_library(b_material))
         displacement = output_place(tree, "Displacement")
         if displacement is not None:
             _displace(translation, displacement, b_material)
@@ -74,6 +82,7 @@ def translate_surface(
         aov_output.translate(translation, tree)
         b_original: Any = b_material.original
         store.mesh_data[b_original.session_uid] = frozenset(translation.mesh_data)
+        store.object_data[b_original.session_uid] = frozenset(translation.object_data)
     return material
 
 
@@ -110,23 +119,42 @@ def fill(surface: Translation, tree: bpy.types.ShaderNodeTree) -> None:
         material.volume = material.add(basicrt.VolumeShader())
 
 
-def emission_of(b_light: bpy.types.Light, report: Report) -> Emission | None:
-    """What the nodes of a lamp give off; None where they are not in use."""
+def emission_of(
+    b_light: bpy.types.Light, report: Report, store: Textures, lamp: LampObject
+) -> Emission | None:
+    """What the nodes of a lamp give off; None where they are not in use.
+
+    Its textures are added to `store`.
+    """
     with compat.inlined_nodes(b_light) as tree:
         if tree is None:
             return None
-        nowhere = Textures(basicrt.Scene())
-        translation = Translation(f'light "{b_light.name}"', report, basicrt.Material(), nowhere)
-        return _emission_at(translation, output_place(tree, "Surface"))
+        item = f'light "{b_light.name}"'
+        material = basicrt.Material(name=b_light.name)
+        translation = Translation(
+            item, report, material, store, lamp=lamp, library=_library(b_light)
+        )
+        place = output_place(tree, "Surface")
+        if place is None:
+            return _DARK
+        constant = _constant_emission(translation, place)
+        if constant is not None:
+            return constant
+        material.surface = translation.shader_at(place)
+        return Emission(material=material) if material.surface is not None else _DARK
 
 
-def _emission_at(translation: Translation, place: Place | None) -> Emission:
-    """The emission that arrives at an input; black, with a warning, where it is something else."""
-    source = trace(place) if place is not None else None
-    if source is None or not source.socket.is_output or source.socket.node is None:
-        return Emission((0.0, 0.0, 0.0))
+_DARK = Emission((0.0, 0.0, 0.0))
+
+
+def _constant_emission(translation: Translation, place: Place) -> Emission | None:
+    """Of an Emission node alone that is the same everywhere, else None."""
+    source = trace(place)
+    if not source.socket.is_output or source.socket.node is None:
+        return _DARK
     view = NodeView(source.socket.node, source.groups, translation)
-    if view.bl_idname == "ShaderNodeEmission":
-        return Emission(scaled(view.light("Color"), view.number("Strength")))
-    translation.warn(f"{view.title} is not supported: black instead")
-    return Emission((0.0, 0.0, 0.0))
+    if view.bl_idname != "ShaderNodeEmission":
+        return None
+    color, strength = view.varying_light("Color"), view.varying_number("Strength")
+    is_constant = isinstance(color, tuple) and isinstance(strength, float)
+    return Emission(scaled(color, strength)) if is_constant else None  # type: ignore[arg-type]

@@ -20,11 +20,12 @@ from ..export import (
     light_groups,
     material,
     mesh,
+    object_properties,
     points,
     visibility,
 )
 from ..export.identity import random_number, uid
-from ..nodes import MeshData, Textures
+from ..nodes import MeshData, ObjectData, Textures
 from ..report import ExportError, Report
 from .changes import Changes
 from .motion import Key, MotionExport, hair_key, key_of
@@ -102,6 +103,7 @@ class Instances:
         self._materials: dict[int, int] = {}  # by the material's number
         self._known: dict[Key, _Known | None] = {}  # None: it is none of ours, or has no faces
         self._lights: dict[Key, int] = {}  # in Scene.lights
+        self._lamp_materials: dict[Key, int] = {}  # in Scene.materials
         self._object_names: dict[int, str] = {}
         self._hairy: set[int] = set()  # the numbers of objects that hair grows on
         self._instanced: set[int] = (
@@ -110,6 +112,7 @@ class Instances:
         # Of one update, by the numbers of an object and of what instances it, and by the mesh's key.
         self._slots: dict[tuple[int, int], list[int | None]] = {}
         self._asked: dict[tuple[int, int], frozenset[MeshData]] = {}
+        self._asked_of_objects: dict[tuple[int, int], frozenset[ObjectData]] = {}
         self._visibility: dict[tuple[int, int], int] = {}
         self._is_forgotten = False
 
@@ -123,6 +126,7 @@ class Instances:
         self._groups = light_groups.numbers(b_original_layer, self._report)
         self._slots.clear()
         self._asked.clear()
+        self._asked_of_objects.clear()
         self._visibility.clear()
         if changes.shapes:
             may_lack = changes.is_selection
@@ -141,15 +145,20 @@ class Instances:
             key = uid(b_material)
             if key not in wanted:
                 continue
-            asked = self._textures.mesh_data.get(key)
+            asked = self._asked_by(key)
             index = self._materials[key]
             evaluated: Any = b_material.evaluated_get(depsgraph)
             converted = material.convert(evaluated, self._report, self._textures)
             self._scene.materials[index] = converted
             self._names["materials"][index] = f'material "{b_material.name}"'
-            is_same &= asked == self._textures.mesh_data.get(key)
+            is_same &= asked == self._asked_by(key)
             wanted = wanted - {key}
         return is_same and not wanted
+
+    def _asked_by(self, material_number: int) -> tuple[Any, Any]:
+        """What a material asks for of meshes and of objects."""
+        textures = self._textures
+        return textures.mesh_data.get(material_number), textures.object_data.get(material_number)
 
     def touch(self, depsgraph: bpy.types.Depsgraph, changes: Changes) -> bool:
         """Update the objects that changed and nothing else; False where that can't be done."""
@@ -167,7 +176,7 @@ class Instances:
             found.append(evaluated)
         for evaluated in found:
             key = (uid(evaluated), 0, ())
-            if key in self._lights and not self._touch_light(evaluated, self._lights[key]):
+            if key in self._lights and not self._touch_light(key, evaluated):
                 return False
             known = self._known[key]
             if known is None:
@@ -275,23 +284,41 @@ class Instances:
         """One placed lamp."""
         if not shown.has_lights:
             return
-        converted = self._convert_light(b_instance.object, b_instance.matrix_world)
+        converted = self._convert_light(key, b_instance)
         if converted is not None:
             self._lights[key] = self._scene.lights.append(converted)
 
-    def _touch_light(self, b_object: Any, index: int) -> bool:
+    def _touch_light(self, key: Key, b_object: Any) -> bool:
         """A lamp that changed; False where it does not shine any more."""
-        converted = self._convert_light(b_object, b_object.matrix_world)
+        converted = self._convert_light(key, Placed(b_object))
         if converted is not None:
-            self._scene.lights[index] = converted
+            self._scene.lights[self._lights[key]] = converted
         return converted is not None
 
-    def _convert_light(self, b_object: Any, matrix: Matrix) -> Any:
+    def _convert_light(self, key: Key, b_instance: Any) -> Any:
         """A lamp, None where it doesn't shine."""
-        converted = light.convert(b_object, matrix, self._report)
-        if converted is not None:
-            converted.light_group = light_groups.number_of(b_object, self._groups)
+        b_object = b_instance.object
+        random = random_number(b_instance)
+        made = light.convert(
+            b_object, b_instance.matrix_world, random, self._report, self._textures
+        )
+        if made is None:
+            return None
+        converted, lamp_material = made
+        converted.light_group = light_groups.number_of(b_object, self._groups)
+        if lamp_material is not None:
+            converted.material = self._put_lamp_material(key, b_object, lamp_material)
         return converted
+
+    def _put_lamp_material(self, key: Key, b_object: Any, lamp_material: basicrt.Material) -> int:
+        """The index of what a lamp's light varies by, in place of what it was."""
+        if key not in self._lamp_materials:
+            self._names["materials"].append(f'light "{b_object.name}"')
+            self._lamp_materials[key] = self._scene.materials.append(lamp_material)
+            return self._lamp_materials[key]
+        index = self._lamp_materials[key]
+        self._scene.materials[index] = lamp_material
+        return index
 
     def _warn(self, b_object: bpy.types.Object, message: str) -> None:
         self._report.warn(f'object "{b_object.name}"', message)
@@ -334,6 +361,9 @@ class Instances:
             pass_index=b_object.pass_index,
             asset_name=self._asset_name(b_instance, b_object),
         )
+        asked = self._asked_of_objects[uid(b_object), mesh.key(b_mesh)]
+        if asked:
+            instance.properties = object_properties.convert(b_instance, asked, self._report)
         return instance, shape
 
     def _shape_of(
@@ -393,8 +423,12 @@ class Instances:
             materials = [override] if override else material.slots(b_object, b_mesh)
             self._slots[key] = [self._material(b_material) for b_material in materials]
             data = self._textures.mesh_data
-            asked = [data.get(uid(one), ()) for one in materials if one is not None]
-            self._asked[key] = frozenset().union(*asked)
+            numbers = [uid(one) for one in materials if one is not None]
+            self._asked[key] = frozenset().union(*(data.get(number, ()) for number in numbers))
+            of_objects = self._textures.object_data
+            self._asked_of_objects[key] = frozenset().union(
+                *(of_objects.get(number, ()) for number in numbers)
+            )
         return self._slots[key]
 
     def _material(self, b_material: bpy.types.Material | None) -> int | None:

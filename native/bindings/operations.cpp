@@ -34,6 +34,7 @@ void register_operations(py::module_& m) {
   bind_described<ChangeSpaceOperation>(m, "ChangeSpaceOperation", "A point from one space to another.");
   bind_described<SurfaceOperation>(m, "SurfaceOperation", "Something of the point that is shaded.");
   bind_described<AttributeOperation>(m, "AttributeOperation", "A named attribute of the mesh.");
+  bind_described<ObjectPropertyOperation>(m, "ObjectPropertyOperation", "A named property of the object.");
   bind_described<FresnelOperation>(m, "FresnelOperation", "A weight by the angle of view.");
   bind_described<NormalMapOperation>(m, "NormalMapOperation", "A normal from a colour.");
   bind_described<TangentOperation>(m, "TangentOperation", "A direction along the surface.");
@@ -50,6 +51,7 @@ void register_operations(py::module_& m) {
   bind_described<WhiteNoiseOperation>(m, "WhiteNoiseOperation", "A random number for each point.");
   bind_described<VoronoiOperation>(m, "VoronoiOperation", "Cells around random points.");
   bind_described<GaborOperation>(m, "GaborOperation", "Waves of one frequency in random places.");
+  bind_described<IesOperation>(m, "IesOperation", "How a luminaire spreads its light.");
 }
 
 }  // namespace basicrt::bindings

@@ -88,6 +88,29 @@ Image draw_environment_in(BoundScene& self, const Material& material, int width,
                           0);
 }
 
+// A dictionary of vectors.
+Attribute<Instance> properties_attribute() {
+  return {"properties",
+          "for materials that ask by name; reading gives a copy, assign to change them",
+          "collections.abc.Mapping[str, collections.abc.Sequence[float]]",
+          "dict[str, tuple[float, float, float]]",
+          [](const Instance& self) {
+            py::dict properties;
+            for (const ObjectProperty& property : self.info.properties)
+              properties[py::str(property.name)] = PythonValue<Vec3f>::write(property.value);
+            return py::object(properties);
+          },
+          [](Instance& self, py::handle value, const std::string& item) {
+            if (!py::isinstance<py::dict>(value)) refuse_type(item, "must be a dictionary", value);
+            std::vector<ObjectProperty> properties;
+            for (const auto& [key, number] : py::reinterpret_borrow<py::dict>(value)) {
+              const std::string name = PythonValue<std::string>::read(key, item);
+              properties.push_back({name, PythonValue<Vec3f>::read(number, item + "[" + name + "]")});
+            }
+            self.info.properties = std::move(properties);
+          }};
+}
+
 void bind_instance(py::module_& m) {
   std::vector<Attribute<Instance>> attributes = {
       make_attribute(field("shape", &Instance::shape, "index into Scene.shapes")),
@@ -112,6 +135,7 @@ void bind_instance(py::module_& m) {
       info_attribute("color", "for materials that ask", &ObjectInfo::color),
       info_attribute("alpha", "of the colour, for materials that ask", &ObjectInfo::alpha),
       info_attribute("random", "in [0, 1], for materials that ask", &ObjectInfo::random),
+      properties_attribute(),
       make_attribute(field("shadow_terminator_offset", &Instance::shadow_terminator_offset,
                            "cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not "
                            "the facets",

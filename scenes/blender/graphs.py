@@ -436,3 +436,82 @@ def _layer_group() -> Any:
     )
     outer.links.new(mixed.outputs[0], outer.nodes.new("NodeGroupOutput").inputs["Color"])
     return outer
+
+
+# ---- lamps ---------------------------------------------------------------------------------------
+
+
+# Of type C, the same all round: a narrow beam with a ring about it.
+LUMINAIRE = """IESNA:LM-63-2002
+TILT=NONE
+1 -1 900 7 1 1 2 0 0 0
+1 1 1
+0 15 30 40 50 70 90
+0
+1 0.9 0.1 0.4 0.5 0.1 0
+"""
+
+
+def lamp_graph(lamp: bpy.types.Object) -> tuple[Graph, Any]:
+    """A lamp's nodes in the making, and the shader input of its output."""
+    light: Any = lamp.data
+    if bpy.app.version < (5, 1, 0):
+        light.use_nodes = True
+    light.node_tree.nodes.clear()
+    output = light.node_tree.nodes.new("ShaderNodeOutputLight")
+    return Graph("", light.node_tree), output.inputs["Surface"]
+
+
+def shine(lamp: bpy.types.Object, graph: Graph, surface: Any, color: Any, strength: Any) -> None:
+    """The lamp with that colour and strength."""
+    emission = graph.node("Emission", Color=color, Strength=strength)
+    graph.tree.links.new(emission.outputs[0], surface)
+
+
+@family
+def projecting_spots(scene: bpy.types.Scene) -> None:
+    """A checker and rings that spots throw, one of them with a size, whose light doesn't fade."""
+    corner(scene)
+    cone = {"spot_size": math.radians(60), "spot_blend": 0.2}
+    sharp = stage.lamp(
+        "SPOT", "Sharp", (-1.2, -2, 3), (40, -10, 0), 250.0, shadow_soft_size=0.0, **cone
+    )
+    graph, surface = lamp_graph(sharp)
+    checker = graph.node(
+        "TexChecker",
+        Vector=graph.coordinates("UV"),
+        Color1=(1.0, 0.8, 0.3),
+        Color2=(0.05, 0.1, 0.4),
+        Scale=6.0,
+    )
+    shine(sharp, graph, surface, checker.outputs["Color"], 1.0)
+    soft = stage.lamp(
+        "SPOT", "Soft", (1.5, -2, 2.5), (45, 20, 0), 40.0, shadow_soft_size=0.2, **cone
+    )
+    graph, surface = lamp_graph(soft)
+    direction = graph.coordinates("Normal")
+    rings = graph.node("TexWave", {"wave_type": "RINGS"}, Vector=direction, Scale=2.0)
+    falloff = graph.node("LightFalloff", Strength=0.5, Smooth=0.3)
+    shine(soft, graph, surface, rings.outputs["Color"], falloff.outputs["Linear"])
+
+
+@family
+def luminaires(scene: bpy.types.Scene) -> None:
+    """A measured lamp, a panel with noise on it, and a sun with a pattern in its disc."""
+    corner(scene)
+    text: Any = bpy.data.texts.new("Luminaire.ies")
+    text.write(LUMINAIRE)
+    bulb = stage.lamp("POINT", "Bulb", (-1, -0.5, 2.6), (20, 0, 0), 6.0, shadow_soft_size=0.05)
+    graph, surface = lamp_graph(bulb)
+    photometry = graph.node("TexIES", {"mode": "INTERNAL", "ies": text})
+    body = graph.node("Blackbody", Temperature=3200.0)
+    shine(bulb, graph, surface, body.outputs[0], photometry.outputs[0])
+    panel = ceiling_lamp()
+    graph, surface = lamp_graph(panel)
+    noise = graph.node("TexNoise", Vector=graph.coordinates("UV"), Scale=3.0)
+    color = graph.ramp(noise.outputs[0], (0.45, (0.0, 0.0, 0.0)), (0.55, (0.6, 1.0, 0.8)))
+    shine(panel, graph, surface, color, 0.6)
+    sun = stage.lamp("SUN", "Sun", (0, 0, 4), (50, 0, 35), 1.2, angle=math.radians(20))
+    graph, surface = lamp_graph(sun)
+    steps = graph.node("TexChecker", Vector=graph.coordinates("UV"), Scale=2.0)
+    shine(sun, graph, surface, steps.outputs["Color"], 1.0)

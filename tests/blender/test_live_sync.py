@@ -113,6 +113,21 @@ def test_moving_a_lamp_touches_no_instance(
     expect_up_to_date(live)
 
 
+def test_nodes_of_a_lamp_touch_no_instance(
+    live: LiveScene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live.sync._instances, "scan", None)
+    before = live.picture()
+    edit_lamp_nodes(random.Random(1))
+    expect_up_to_date(live)
+    after, count = live.picture(), len(live.sync.exported.scene.materials)
+    assert not np.array_equal(before, after)
+    edit_lamp_nodes(random.Random(2))
+    expect_up_to_date(live)
+    assert not np.array_equal(after, live.picture())
+    assert len(live.sync.exported.scene.materials) == count
+
+
 def test_a_material_is_converted_alone(live: LiveScene, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(live.sync._instances, "scan", None)
     tree = bpy.data.materials["Red"].node_tree
@@ -176,6 +191,18 @@ def move(chance: random.Random) -> None:
 
 def move_lamp(chance: random.Random) -> None:
     chance.choice(objects("LIGHT")).location.x = chance.uniform(-2, 2)
+
+
+def edit_lamp_nodes(chance: random.Random) -> None:
+    """Noise in the light of a lamp, or its strength where it has that already."""
+    light = chance.choice(objects("LIGHT")).data
+    if bpy.app.version < (5, 1, 0):
+        light.use_nodes = True
+    emission = next(n for n in light.node_tree.nodes if n.type == "EMISSION")
+    emission.inputs["Strength"].default_value = chance.uniform(1, 2)
+    if not emission.inputs["Color"].is_linked:
+        noise = light.node_tree.nodes.new("ShaderNodeTexNoise")
+        light.node_tree.links.new(noise.outputs["Color"], emission.inputs["Color"])
 
 
 def edit_mesh(chance: random.Random) -> None:
@@ -259,6 +286,7 @@ EDITS: tuple[Callable[[random.Random], None], ...] = (
     delete_object,
     move,
     move_lamp,
+    edit_lamp_nodes,
     edit_mesh,
     relink_material,
     edit_material,

@@ -360,9 +360,9 @@ def test_colour_becomes_a_number_by_luminance() -> None:
 def test_unsupported_texture_leaves_the_sockets_own_value() -> None:
     def link(tree: Any, socket: Any) -> None:
         socket.default_value = (*COLOR, 1)
-        tree.links.new(tree.nodes.new("ShaderNodeTexIES").outputs[0], socket)
+        tree.links.new(tree.nodes.new("ShaderNodeVolumeInfo").outputs[0], socket)
 
-    warning = 'node "Diffuse BSDF": Color is linked to "IES Texture", which is not supported: its own value is used'
+    warning = 'node "Diffuse BSDF": Color is linked to "Volume Info", which is not supported: its own value is used'
     assert only_node(diffuse_with(link), warning).color == COLOR
 
 

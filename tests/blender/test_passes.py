@@ -178,7 +178,7 @@ def test_geometry_is_cycles_pixel_by_pixel(
         ("Diffuse Direct", 0.02),
         ("Diffuse Indirect", 0.05),
         ("Diffuse Color", 0.01),
-        ("Glossy Direct", 0.04),
+        ("Glossy Direct", 0.07),
         ("Glossy Indirect", 0.15),
         ("Glossy Color", 0.03),
         ("Transmission Direct", 0.04),

@@ -18,10 +18,12 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
+from addon.nodes import LampObject, Textures
 from addon.nodes.blackbody import blackbody_color
 from addon.nodes.translate import emission_of
 from addon.report import Report
 
+import basicrt
 from support.blender import (
     add_camera,
     add_lamp,
@@ -649,8 +651,9 @@ def test_lamp_takes_the_constant_of_a_node() -> None:
     tree.links.new(body.outputs[0], emission.inputs["Color"])
     emission.inputs["Strength"].default_value = 1.0
     report = Report()
-    found = emission_of(lamp, report)
+    found = emission_of(lamp, report, Textures(basicrt.Scene()), LampObject("POINT"))
     assert found is not None
+    assert found.material is None
     # From 5.0 on by Blender itself, whose approximation is another.
     assert found.radiance == pytest.approx(blackbody_color(3000.0), abs=1e-3)
     assert not report.warnings

@@ -95,10 +95,10 @@ def test_values_may_go_by_position_in_the_order_of_the_docs() -> None:
 
 
 def test_the_repr_of_plain_values_makes_an_equal_object() -> None:
-    light = basicrt.PointLight((0.1, 2, -3e-8), (4, 5, 1e20), 1 / 3, True)
-    again = eval(repr(light), vars(basicrt))
-    for name in fields(basicrt.PointLight):
-        assert getattr(again, name) == getattr(light, name)
+    volume = basicrt.VolumeShader((0.1, 2, 3e-8), (4, 5, 1e20), anisotropy=-1 / 3)
+    again = eval(repr(volume), vars(basicrt))
+    for name in fields(basicrt.VolumeShader):
+        assert getattr(again, name) == getattr(volume, name)
 
 
 @pytest.mark.parametrize(

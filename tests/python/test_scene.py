@@ -287,3 +287,23 @@ def test_a_scene_that_can_not_be_saved_leaves_no_file(tmp_path) -> None:
     with pytest.raises(SceneError, match="shapes"):
         scene.save(tmp_path / "scene.json")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_instances_have_properties_by_name() -> None:
+    instance = basicrt.Instance(properties={"age": (1, 2, 3)})
+    assert instance.properties == {"age": (1, 2, 3)}
+    instance.properties = {}
+    assert instance.properties == {}
+    with pytest.raises(TypeError, match=r"Instance\.properties: must be a dictionary"):
+        instance.properties = 3  # type: ignore[assignment]
+    with pytest.raises(TypeError, match=r"Instance\.properties\[age\]"):
+        instance.properties = {"age": "old"}
+
+
+def test_lamps_take_the_materials_of_the_scene() -> None:
+    scene = basicrt.Scene()
+    scene.camera = basicrt.PerspectiveCamera()
+    scene.lights.append(basicrt.SunLight(material=0))
+    with pytest.raises(SceneError, match=r"lights\[0\]\.material: id 0, but the scene has 0"):
+        basicrt.render(scene)
+    assert basicrt.SunLight().material is None

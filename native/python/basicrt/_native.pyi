@@ -48,6 +48,7 @@ __all__: list[str] = [
     "HairShader",
     "HoldoutShader",
     "HueSaturationOperation",
+    "IesOperation",
     "Image",
     "ImageTexture",
     "Instance",
@@ -66,6 +67,7 @@ __all__: list[str] = [
     "MultipleScatteringSky",
     "NoiseOperation",
     "NormalMapOperation",
+    "ObjectPropertyOperation",
     "OperationRef",
     "OrthographicCamera",
     "PassInfo",
@@ -1463,6 +1465,30 @@ class AttributeOperation:
     @name.setter
     def name(self, value: str) -> None: ...
 
+class ObjectPropertyOperation:
+    """
+    A named property of the object.
+
+    name: of the object's property
+    missing: where the object has none of that name
+    """
+    def __init__(self, name: str = "", missing: float = 0.0) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def missing(self) -> float:
+        """
+        where the object has none of that name
+        """
+    @missing.setter
+    def missing(self, value: float) -> None: ...
+    @property
+    def name(self) -> str:
+        """
+        of the object's property
+        """
+    @name.setter
+    def name(self, value: str) -> None: ...
+
 class FresnelOperation:
     """
     A weight by the angle of view.
@@ -2595,6 +2621,67 @@ class GaborOperation:
         self,
         value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
+
+class IesOperation:
+    """
+    How a luminaire spreads its light.
+
+    vector: the direction, of any length: its angles are looked up
+    strength: multiplies the value
+    horizontal: angles about z, from -y towards -x, radians, ascending
+    vertical: angles from -z, radians, ascending
+    values: for each horizontal angle, one for each vertical angle; interpolated by cubics
+    """
+    def __init__(
+        self,
+        vector: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, -1.0),
+        strength: float | TextureRef | OperationRef = 1.0,
+        horizontal: collections.abc.Iterable[float] = [0.0, 6.2831854820251465],
+        vertical: collections.abc.Iterable[float] = [0.0, 3.1415927410125732],
+        values: collections.abc.Iterable[float] = [1.0, 1.0, 1.0, 1.0],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def horizontal(self) -> list[float]:
+        """
+        angles about z, from -y towards -x, radians, ascending
+        """
+    @horizontal.setter
+    def horizontal(self, value: collections.abc.Iterable[float]) -> None: ...
+    @property
+    def strength(self) -> float | TextureRef | OperationRef:
+        """
+        multiplies the value
+        """
+    @strength.setter
+    def strength(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def values(self) -> list[float]:
+        """
+        for each horizontal angle, one for each vertical angle; interpolated by cubics
+        """
+    @values.setter
+    def values(self, value: collections.abc.Iterable[float]) -> None: ...
+    @property
+    def vector(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        the direction, of any length: its angles are looked up
+        """
+    @vector.setter
+    def vector(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def vertical(self) -> list[float]:
+        """
+        angles from -z, radians, ascending
+        """
+    @vertical.setter
+    def vertical(self, value: collections.abc.Iterable[float]) -> None: ...
 
 class DiffuseShader:
     """
@@ -4333,7 +4420,9 @@ class Material:
         | WhiteNoiseOperation
         | VoronoiOperation
         | GaborOperation
-        | AmbientOcclusionOperation,
+        | AmbientOcclusionOperation
+        | IesOperation
+        | ObjectPropertyOperation,
     ) -> OperationRef:
         """
         Appends an operation, which refers only to those before it, and returns what stands for its value.
@@ -4402,6 +4491,8 @@ class Material:
         | VoronoiOperation
         | GaborOperation
         | AmbientOcclusionOperation
+        | IesOperation
+        | ObjectPropertyOperation
     ]:
         """
         Copies of the operations.
@@ -4444,6 +4535,8 @@ class PointLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+    material: whose emission multiplies the lamp's light, place by place; none: by 1
+    object_transform: local to world, of what the material takes for its object
     """
     def __init__(
         self,
@@ -4459,6 +4552,8 @@ class PointLight:
         casts_shadows: bool = True,
         max_bounces: int = 1024,
         light_group: int = 0,
+        material: int | None = None,
+        object_transform: numpy.typing.ArrayLike = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4506,12 +4601,26 @@ class PointLight:
     @light_group.setter
     def light_group(self, value: int) -> None: ...
     @property
+    def material(self) -> int | None:
+        """
+        whose emission multiplies the lamp's light, place by place; none: by 1
+        """
+    @material.setter
+    def material(self, value: int | None) -> None: ...
+    @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
     def max_bounces(self, value: int) -> None: ...
+    @property
+    def object_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        local to world, of what the material takes for its object
+        """
+    @object_transform.setter
+    def object_transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def position(self) -> tuple[float, float, float]:
         """
@@ -4566,6 +4675,8 @@ class SpotLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+    material: whose emission multiplies the lamp's light, place by place; none: by 1
+    object_transform: local to world, of what the material takes for its object
     """
     def __init__(
         self,
@@ -4583,6 +4694,8 @@ class SpotLight:
         casts_shadows: bool = True,
         max_bounces: int = 1024,
         light_group: int = 0,
+        material: int | None = None,
+        object_transform: numpy.typing.ArrayLike = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4644,12 +4757,26 @@ class SpotLight:
     @light_group.setter
     def light_group(self, value: int) -> None: ...
     @property
+    def material(self) -> int | None:
+        """
+        whose emission multiplies the lamp's light, place by place; none: by 1
+        """
+    @material.setter
+    def material(self, value: int | None) -> None: ...
+    @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
     def max_bounces(self, value: int) -> None: ...
+    @property
+    def object_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        local to world, of what the material takes for its object
+        """
+    @object_transform.setter
+    def object_transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def radius(self) -> float:
         """
@@ -4701,6 +4828,8 @@ class SunLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+    material: whose emission multiplies the lamp's light, place by place; none: by 1
+    object_transform: local to world, of what the material takes for its object
     """
     def __init__(
         self,
@@ -4715,6 +4844,8 @@ class SunLight:
         casts_shadows: bool = True,
         max_bounces: int = 1024,
         light_group: int = 0,
+        material: int | None = None,
+        object_transform: numpy.typing.ArrayLike = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4778,12 +4909,26 @@ class SunLight:
     @light_group.setter
     def light_group(self, value: int) -> None: ...
     @property
+    def material(self) -> int | None:
+        """
+        whose emission multiplies the lamp's light, place by place; none: by 1
+        """
+    @material.setter
+    def material(self, value: int | None) -> None: ...
+    @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
     def max_bounces(self, value: int) -> None: ...
+    @property
+    def object_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        local to world, of what the material takes for its object
+        """
+    @object_transform.setter
+    def object_transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def transmission_visible(self) -> bool:
         """
@@ -4815,6 +4960,8 @@ class AreaLight:
     casts_shadows: what is in the way dims its light
     max_bounces: scatterings behind which surfaces aren't lit by it; in [0, 1024]
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
+    material: whose emission multiplies the lamp's light, place by place; none: by 1
+    object_transform: local to world, of what the material takes for its object
     """
     def __init__(
         self,
@@ -4830,6 +4977,8 @@ class AreaLight:
         casts_shadows: bool = True,
         max_bounces: int = 1024,
         light_group: int = 0,
+        material: int | None = None,
+        object_transform: numpy.typing.ArrayLike = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4875,12 +5024,26 @@ class AreaLight:
     @light_group.setter
     def light_group(self, value: int) -> None: ...
     @property
+    def material(self) -> int | None:
+        """
+        whose emission multiplies the lamp's light, place by place; none: by 1
+        """
+    @material.setter
+    def material(self, value: int | None) -> None: ...
+    @property
     def max_bounces(self) -> int:
         """
         scatterings behind which surfaces aren't lit by it; in [0, 1024]
         """
     @max_bounces.setter
     def max_bounces(self, value: int) -> None: ...
+    @property
+    def object_transform(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        local to world, of what the material takes for its object
+        """
+    @object_transform.setter
+    def object_transform(self, value: numpy.typing.ArrayLike) -> None: ...
     @property
     def radiance(self) -> tuple[float, float, float]:
         """
@@ -6727,6 +6890,7 @@ class Instance:
     color: for materials that ask
     alpha: of the colour, for materials that ask
     random: in [0, 1], for materials that ask
+    properties: for materials that ask by name; reading gives a copy, assign to change them
     shadow_terminator_offset: cosine under which light that grazes a smooth-shaded mesh meets the smooth surface, not the facets; in [0, 1]
     shadow_terminator_shading_offset: how much light is dimmed that grazes the object; in [0, 1]
     pass_index: for the pass Object Index and materials that ask
@@ -6746,6 +6910,7 @@ class Instance:
         color: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
         alpha: float = 1.0,
         random: float = 0.0,
+        properties: collections.abc.Mapping[str, collections.abc.Sequence[float]] = {},
         shadow_terminator_offset: float = 0.0,
         shadow_terminator_shading_offset: float = 0.0,
         pass_index: int = 0,
@@ -6818,6 +6983,15 @@ class Instance:
         """
     @pass_index.setter
     def pass_index(self, value: int) -> None: ...
+    @property
+    def properties(self) -> dict[str, tuple[float, float, float]]:
+        """
+        for materials that ask by name; reading gives a copy, assign to change them
+        """
+    @properties.setter
+    def properties(
+        self, value: collections.abc.Mapping[str, collections.abc.Sequence[float]]
+    ) -> None: ...
     @property
     def random(self) -> float:
         """

@@ -8,6 +8,7 @@
 #include "integrator/batch.h"
 #include "integrator/hit_shading.h"
 #include "integrator/softening.h"
+#include "scene/shade_lamp.h"
 
 namespace basicrt {
 namespace {
@@ -213,17 +214,41 @@ void PathIntegrator::add_connection(const Connection& connection, PixelSample& s
 // Lamps do not block rays: each one between the ray's ends adds its light. pass_media() has seen to those in volumes.
 void PathIntegrator::gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) {
   if (is_in_media(path)) return;
-  scene_.lights.for_each_lamp_hit(ray, path.lit_side, [&](const LightHit& hit) { gather_lamp(path, hit, sample); });
+  scene_.lights.for_each_lamp_hit(ray, path.lit_side,
+                                  [&](const LightHit& hit) { gather_lamp(path, ray, hit, sample); });
 }
 
 // Those are behind everything, where a camera's clipping doesn't reach.
 void PathIntegrator::gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample) {
-  scene_.lights.for_each_distant_hit(ray, path.lit_side, [&](const LightHit& hit) { gather_lamp(path, hit, sample); });
+  scene_.lights.for_each_distant_hit(ray, path.lit_side,
+                                     [&](const LightHit& hit) { gather_lamp(path, ray, hit, sample); });
 }
 
-void PathIntegrator::gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample) {
+// The counts are those of a light sample taken where the ray began; the camera's rays count as if they had been scattered.
+void PathIntegrator::gather_lamp(const Path& path, const Ray& ray, const LightHit& hit, PixelSample& sample) {
   const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
-  add_light(path, path.throughput * hit.radiance * weight, hit.light_group, sample);
+  Color radiance = hit.radiance;
+  if (hit.varying_lamp != Hit::none) {
+    Ray seen = ray;
+    seen.t_max = hit.t;
+    radiance = with_emission(radiance, hit.varying_lamp, seen, path, std::max(path.bounces.total, 1));
+  }
+  add_light(path, path.throughput * radiance * weight, hit.light_group, sample);
+}
+
+Color PathIntegrator::with_emission(Color radiance, std::uint32_t lamp, const Ray& ray, const Path& path,
+                                    int depth) const {
+  const LampView view{.lamp = scene_.lights.lamp(lamp),
+                      .position = ray.origin,
+                      .wi = normalize(ray.direction),
+                      .distance = ray.t_max,
+                      .time = ray.time};
+  radiance *= lamp_emission(scene_, scene_.lamp_materials[lamp], view, [&](ShadingContext& context) {
+    context.random_bits = path.sampler.fingerprint();
+    set_bounces(context, path.bounces);
+    context.bounces = depth;
+  });
+  return is_finite(radiance) ? radiance : Color(0.0f);
 }
 
 void PathIntegrator::gather_environment(const Path& path, const Ray& ray, PixelSample& sample) {
@@ -294,8 +319,10 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
 
 // As the material of what shines sees it that is nobody's ray: none of Blender's kinds.
 void PathIntegrator::look_up_emission(const Path& path, Vec3f position, float time, LightSample& light) const {
+  const Ray ray{.origin = position, .direction = light.wi, .t_max = light.distance, .time = time};
+  if (light.varying_lamp != Hit::none)
+    light.radiance = with_emission(light.radiance, light.varying_lamp, ray, path, path.bounces.total + 1);
   if (light.emitter_instance == Hit::none) return;
-  const Ray ray{.origin = position, .direction = light.wi, .time = time};
   const Hit hit{.t = light.distance, .instance = light.emitter_instance, .primitive = light.emitter_primitive};
   const SurfacePoint place = surface_point_at(scene_, ray, hit);
   light.radiance *= shade_at(scene_, place, -light.wi, [&] {

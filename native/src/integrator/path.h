@@ -77,7 +77,7 @@ class PathIntegrator final : public Integrator {
   void add_light(const Path& path, Color radiance, int light_group, PixelSample& sample, bool is_environment = false);
   void gather_lamps(const Path& path, const Ray& ray, PixelSample& sample);
   void gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample);
-  void gather_lamp(const Path& path, const LightHit& hit, PixelSample& sample);
+  void gather_lamp(const Path& path, const Ray& ray, const LightHit& hit, PixelSample& sample);
   void gather_environment(const Path& path, const Ray& ray, PixelSample& sample);
   void gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
                        PixelSample& sample);
@@ -94,6 +94,9 @@ class PathIntegrator final : public Integrator {
   void sample_lights(Path& path, const Ray& ray, const SurfacePoint& point, const Bsdf& bsdf, PixelSample& sample);
   // Looks up what varies on the surface that a light sample is of.
   void look_up_emission(const Path& path, Vec3f position, float time, LightSample& light) const;
+  // The radiance times what the lamp's material emits; `depth` counts scatterings.
+  [[nodiscard]] Color with_emission(Color radiance, std::uint32_t lamp, const Ray& ray, const Path& path,
+                                    int depth) const;
   [[nodiscard]] float terminator_share(const SurfacePoint& point, Vec3f wi) const;
   [[nodiscard]] BsdfValue eval_towards(const LightSample& light, const SurfacePoint& point, Vec3f wo,
                                        const Bsdf& bsdf) const;

@@ -219,7 +219,7 @@ PathIntegrator::Passage PathIntegrator::pass_media(Path& path, Ray& ray, const H
 void PathIntegrator::gather_lamps_in_media(const Path& path, const Ray& ray, Color extinction, PixelSample& sample) {
   scene_.lights.for_each_lamp_hit(ray, path.lit_side, [&](LightHit hit) {
     hit.radiance *= transmittance(extinction, hit.t - ray.t_min);
-    gather_lamp(path, hit, sample);
+    gather_lamp(path, ray, hit, sample);
   });
 }
 

@@ -2,6 +2,7 @@
 // Lamps and the environment.
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <variant>
 
 #include "io/described_json.h"
@@ -37,7 +38,17 @@ Color read_scale(const JsonValue& map) {
 
 void read_lights(SceneReader& reader, const JsonValue& lights) {
   lights.expect_array();
-  for (std::size_t i = 0; i < lights.size(); ++i) reader.scene.lights.append(read_plain_variant<Light>(lights.item(i)));
+  const auto read_light = [&]<class Kind>(const JsonValue& object, Kind& light) {
+    object.check_keys(known_keys<Kind>());
+    read_fields(object, light, [&]<class Value>(const JsonValue& value, Value& out) {
+      if constexpr (std::same_as<Value, Id<Material>>)
+        out = reader.materials.resolve(value);
+      else
+        read(value, out);
+    });
+  };
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    reader.scene.lights.append(read_variant<Light>(lights.item(i), read_light));
 }
 
 void read_environment(SceneReader& reader, const JsonValue& json) {

@@ -11,7 +11,7 @@ namespace basicrt {
 namespace {
 
 // "shape", then what every object may have.
-constexpr std::array<std::string_view, 18> shape_object_keys = {"shape",
+constexpr std::array<std::string_view, 20> shape_object_keys = {"shape",
                                                                 "name",
                                                                 "material_name",
                                                                 "materials",
@@ -23,7 +23,9 @@ constexpr std::array<std::string_view, 18> shape_object_keys = {"shape",
                                                                 "holdout",
                                                                 "shadow_catcher",
                                                                 "color",
+                                                                "alpha",
                                                                 "random",
+                                                                "properties",
                                                                 "shadow_terminator_offset",
                                                                 "shadow_terminator_shading_offset",
                                                                 "pass_index",
@@ -112,6 +114,11 @@ void read_object(SceneReader& reader, const JsonValue& object) {
   read_optional(object, "color", instance.info.color);
   read_optional(object, "alpha", instance.info.alpha);
   read_optional(object, "random", instance.info.random);
+  if (const auto properties = object.find("properties")) {
+    properties->expect_object();
+    for (const auto& [name, value] : properties->json().items())
+      read(properties->member(name), instance.info.properties.emplace_back(ObjectProperty{name, {}}).value);
+  }
   read_optional(object, "shadow_catcher", instance.is_shadow_catcher);
   read_optional(object, "shadow_terminator_offset", instance.shadow_terminator_offset);
   read_optional(object, "shadow_terminator_shading_offset", instance.shadow_terminator_shading_offset);

@@ -210,6 +210,8 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
   if (instance.info.color != Color(1.0f)) json["color"] = write(instance.info.color);
   if (instance.info.alpha != 1) json["alpha"] = write(instance.info.alpha);
   if (instance.info.random != 0) json["random"] = write(instance.info.random);
+  for (const ObjectProperty& property : instance.info.properties)
+    json["properties"][property.name] = write(property.value);
   if (instance.is_shadow_catcher) json["shadow_catcher"] = true;
   if (instance.shadow_terminator_offset != 0)
     json["shadow_terminator_offset"] = write(instance.shadow_terminator_offset);
@@ -228,6 +230,16 @@ Json write_settings(const RenderSettings& settings) {
   for (const PassInfo& info : passes)
     if (settings.passes.has(info.pass)) json["passes"].push_back(info.name);
   return json;
+}
+
+Json write_light(const Light& light, const SceneKeys& keys) {
+  const auto write_value = [&]<class Value>(const Value& value) -> Json {
+    if constexpr (std::same_as<Value, Id<Material>>)
+      return value.is_valid() ? Json(keys.materials.at(value.index)) : Json(nullptr);
+    else
+      return write(value);
+  };
+  return std::visit([&](const auto& kind) { return write_fields(kind, write_value); }, light);
 }
 
 }  // namespace
@@ -256,8 +268,7 @@ std::string scene_to_json(const Scene& scene) {
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
     json["objects"].push_back(write_instance(scene.instances[i], keys));
   json["lights"] = Json::array();
-  for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-    json["lights"].push_back(std::visit(write_kind, scene.lights[i]));
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) json["lights"].push_back(write_light(scene.lights[i], keys));
   if (Json written = images.write(); !written.empty()) json["images"] = std::move(written);
   return to_text(json);
 }

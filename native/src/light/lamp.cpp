@@ -27,6 +27,7 @@ Lamp::Lamp(const Light& light)
         add(lamp.is_glossy_visible, ray_glossy);
         add(lamp.is_transmission_visible, ray_transmission);
         add(lamp.is_volume_visible, ray_volume);
+        is_varying = lamp.material.is_valid();
       },
       light);
 }
@@ -86,12 +87,16 @@ EmissionPdf emission_pdf(const Lamp& lamp, Vec3f position, Vec3f direction, floa
 }
 
 std::variant<LightBounds, DistantBounds> light_bounds(const Lamp& lamp) {
-  return std::visit(
-      [](const auto& of_kind) -> std::variant<LightBounds, DistantBounds> { return lamp_bounds(of_kind); }, lamp.kind);
+  using Bounds = std::variant<LightBounds, DistantBounds>;
+  Bounds bounds = std::visit([](const auto& of_kind) -> Bounds { return lamp_bounds(of_kind); }, lamp.kind);
+  std::visit(Overloaded{[&](LightBounds& near) { near.intensity *= lamp.estimate; },
+                        [&](DistantBounds& distant) { distant.irradiance *= lamp.estimate; }},
+             bounds);
+  return bounds;
 }
 
 float power_estimate(const Lamp& lamp, float scene_radius) {
-  return std::visit([&](const auto& of_kind) { return lamp_power(of_kind, scene_radius); }, lamp.kind);
+  return lamp.estimate * std::visit([&](const auto& of_kind) { return lamp_power(of_kind, scene_radius); }, lamp.kind);
 }
 
 }  // namespace basicrt

@@ -16,7 +16,7 @@
 
 namespace basicrt {
 
-// A lamp with what sampling needs of it, worked out once.
+// A lamp with what sampling needs of it, worked out once. What its material makes of its light is not its own business.
 struct Lamp {
   Lamp(const Light& light);  // NOLINT(google-explicit-constructor): the same lamp
   template <class Described>
@@ -25,6 +25,8 @@ struct Lamp {
 
   std::variant<PointLight, SpotLamp, SunLight, AreaLamp> kind;
   std::uint32_t visibility = 0;  // RayKind bits of the rays that see it
+  bool is_varying = false;       // it has a material
+  float estimate = 1;            // what that multiplies its light by, about: for power and bounds
 };
 
 // Light from a single place or direction: rays never run into it.

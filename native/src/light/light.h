@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/describe.h"
+#include "base/id.h"
 #include "geometry/hit.h"
 #include "light/light_group.h"
 #include "math/color.h"
@@ -15,7 +16,10 @@
 
 namespace basicrt {
 
-// What every lamp has, whatever its kind: a switch for each way in which light may reach the camera.
+struct Material;
+
+// What every lamp has, whatever its kind: a switch for each way in which light may reach the camera, and a material
+// that its light varies by.
 template <class Lamp>
 constexpr auto lamp_switches() {
   return fields_of(
@@ -27,7 +31,9 @@ constexpr auto lamp_switches() {
       field("casts_shadows", &Lamp::casts_shadows, "what is in the way dims its light"),
       field("max_bounces", &Lamp::max_bounces, "scatterings behind which surfaces aren't lit by it", within(0, 1024)),
       field("light_group", &Lamp::light_group, "its light is in the pass Light Group of this number too; 0: in none",
-            within(0, light_groups)));
+            within(0, light_groups)),
+      field("material", &Lamp::material, "whose emission multiplies the lamp's light, place by place; none: by 1"),
+      field("object_transform", &Lamp::object_to_world, "local to world, of what the material takes for its object"));
 }
 
 // A sphere of the given radius, or a point where that is 0. With soft falloff a disc that faces the lit point stands
@@ -42,6 +48,8 @@ struct PointLight {
   bool casts_shadows = true;
   int max_bounces = 1024;
   int light_group = 0;
+  Id<Material> material;
+  Transform object_to_world;
   static constexpr std::string_view kind = "point";
   static constexpr auto fields() {
     return joined(fields_of(field("position", &PointLight::position, "world space, metres"),
@@ -64,6 +72,8 @@ struct SpotLight {
   bool casts_shadows = true;
   int max_bounces = 1024;
   int light_group = 0;
+  Id<Material> material;
+  Transform object_to_world;
   static constexpr std::string_view kind = "spot";
   static constexpr auto fields() {
     return joined(fields_of(field("transform", &SpotLight::to_world, "local to world; shines along local -z"),
@@ -85,6 +95,8 @@ struct SunLight {
   bool casts_shadows = true;
   int max_bounces = 1024;
   int light_group = 0;
+  Id<Material> material;
+  Transform object_to_world;
   static constexpr std::string_view kind = "sun";
   static constexpr auto fields() {
     return joined(
@@ -106,6 +118,8 @@ struct AreaLight {
   bool casts_shadows = true;
   int max_bounces = 1024;
   int light_group = 0;
+  Id<Material> material;
+  Transform object_to_world;
   static constexpr std::string_view kind = "area";
   static constexpr auto fields() {
     return joined(fields_of(field("transform", &AreaLight::to_world, "local to world; a unit square or disc at z = 0"),
@@ -132,6 +146,8 @@ struct LightSample {
   int light_group = 0;
   // Of a surface that doesn't emit the same everywhere: whose it is. The radiance counts times what it emits there.
   std::uint32_t emitter_instance = Hit::none, emitter_primitive = Hit::none;
+  // The same of a lamp: its number, else Hit::none.
+  std::uint32_t varying_lamp = Hit::none;
 };
 
 // Light that a ray runs into.
@@ -140,6 +156,7 @@ struct LightHit {
   Color radiance{0.0f};
   float pdf = 0;  // that sample_light() gives this direction, over solid angle
   int light_group = 0;
+  std::uint32_t varying_lamp = Hit::none;  // as of a LightSample
 };
 
 // A path that starts at the light.

@@ -30,9 +30,9 @@ float environment_share(const EnvironmentSampler& environment, float scene_radiu
 
 }  // namespace
 
-LightSet::LightSet(const std::vector<Light>& lamps, const std::vector<EmissiveInstance>& emitters,
+LightSet::LightSet(const std::vector<Lamp>& lamps, const std::vector<EmissiveInstance>& emitters,
                    EnvironmentSampler environment, const Bounds3f& scene_bounds, bool has_volumes)
-    : lamps_(lamps.begin(), lamps.end()), environment_(std::move(environment)) {
+    : lamps_(lamps), environment_(std::move(environment)) {
   scene_radius_ = radius_of(scene_bounds);
   double power = 0;
   const auto add_power = [&](double of_one) {
@@ -105,7 +105,12 @@ std::optional<LightSample> LightSet::sample_picked(const LitPoint& point, float 
 }
 
 std::optional<LightSample> LightSet::sample_lamp_or_emitter(LightRef light, Vec3f position, Vec2f u, float time) const {
-  if (is_lamp(light)) return sample_light(lamps_[light.source], position, u);
+  if (is_lamp(light)) {
+    const Lamp& lamp = lamps_[light.source];
+    std::optional<LightSample> of_lamp = sample_light(lamp, position, u);
+    if (of_lamp && lamp.is_varying) of_lamp->varying_lamp = light.source;
+    return of_lamp;
+  }
   std::optional<LightSample> sample =
       std::visit(Overloaded{[&](const MeshEmitter& mesh) { return mesh.sample(light.primitive, position, u, time); },
                             [&](const SphereEmitter& sphere) { return sphere.sample(position, u, time); }},

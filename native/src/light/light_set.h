@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,9 +29,13 @@ struct LightExtent {
 class LightSet {
  public:
   LightSet() = default;
-  // `has_volumes`: choose() will be called.
-  LightSet(const std::vector<Light>& lamps, const std::vector<EmissiveInstance>& emitters,
+  // `has_volumes`: choose() will be called. A number of a varying lamp is its index in `lamps`.
+  LightSet(const std::vector<Lamp>& lamps, const std::vector<EmissiveInstance>& emitters,
            EnvironmentSampler environment, const Bounds3f& scene_bounds, bool has_volumes = false);
+  LightSet(const std::vector<Light>& lamps, const std::vector<EmissiveInstance>& emitters,
+           EnvironmentSampler environment, const Bounds3f& scene_bounds, bool has_volumes = false)
+      : LightSet(std::vector<Lamp>(lamps.begin(), lamps.end()), emitters, std::move(environment), scene_bounds,
+                 has_volumes) {}
 
   // Chooses a light with `choice` and a place on it with `u`; the pdf includes the choice. Nothing where no light
   // reaches the point. Emissive shapes that move are where they are at the time.
@@ -84,6 +89,7 @@ class LightSet {
     return environment_.eval(direction, is_camera_ray);
   }
   [[nodiscard]] int environment_light_group() const { return environment_.light_group(); }
+  [[nodiscard]] const Lamp& lamp(std::uint32_t number) const { return lamps_[number]; }
   // Nothing to sample.
   [[nodiscard]] bool is_empty() const { return picker_.size() == 0 && environment_share_ == 0; }
 
@@ -107,6 +113,7 @@ class LightSet {
     std::optional<LightHit> hit = intersect_light(lamps_[lamp], ray);
     if (!hit) return;
     hit->pdf *= (1 - environment_share_) * picker_.probability({lamp, 0}, {ray.origin, normal});
+    if (lamps_[lamp].is_varying) hit->varying_lamp = lamp;
     visit(*hit);
   }
 

@@ -15,6 +15,7 @@
 #include "bsdf/bsdf.h"
 #include "film/cryptomatte.h"
 #include "scene/emission_estimate.h"
+#include "scene/lamp_estimate.h"
 #include "scene/mattes.h"
 
 namespace basicrt {
@@ -299,6 +300,40 @@ std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::u
   return result;
 }
 
+// What a lamp shines with, whatever its kind.
+Color& light_of(Light& light) {
+  return std::visit(Overloaded{[](SunLight& sun) -> Color& { return sun.irradiance; },
+                               [](AreaLight& area) -> Color& { return area.radiance; },
+                               [](auto& ball) -> Color& { return ball.intensity; }},
+                    light);
+}
+
+// A material that is the same everywhere is only a factor; the others are asked about each ray of light.
+std::vector<Lamp> prepare_lamps(const Scene& scene, PreparedScene& prepared, int threads) {
+  std::vector<Lamp> lamps;
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    Light light = scene.lights[i];
+    PreparedScene::LampMaterial& of_lamp = prepared.lamp_materials.emplace_back();
+    const auto prepare_material = [&](auto& of_kind) {
+      if (!of_kind.material.is_valid()) return;
+      const Material& material = prepared.materials[of_kind.material.index].material;
+      if (has_varying_emission(material, SurfaceSide::front)) {
+        of_lamp = {of_kind.material.index, Placement{TransformD(of_kind.object_to_world)}};
+        return;
+      }
+      of_kind.material = {};
+      light_of(light) *= emitted_radiance(material, SurfaceSide::front);
+    };
+    std::visit(prepare_material, light);
+    lamps.emplace_back(light);
+  }
+  parallel_for(lamps.size(), threads, [&](std::size_t i) {
+    if (lamps[i].is_varying)
+      lamps[i].estimate = estimate_lamp(prepared, prepared.lamp_materials[i], lamps[i], prepared.tracer.bounds());
+  });
+  return lamps;
+}
+
 void set_window(PreparedScene& prepared, const Camera& camera, Vec2i film_size) {
   prepared.window.reset();
   const auto set = [&](const CameraBase& flat, bool is_perspective) {
@@ -356,8 +391,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   prepared.tracer = Tracer(std::move(trees), std::move(traced), config);
   apply_view(prepared, *scene.camera, scene.settings);
 
-  std::vector<Light> lamps;
-  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) lamps.push_back(scene.lights[i]);
+  const std::vector<Lamp> lamps = prepare_lamps(scene, prepared, options.threads);
   std::vector<EmissiveInstance> emitters;
   for (std::uint32_t i = 0; i < prepared.instances.size(); ++i)
     if (std::optional<EmissiveInstance> emitter = find_emission(prepared, i, options.threads))

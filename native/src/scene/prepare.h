@@ -61,6 +61,12 @@ struct PreparedScene {
   std::vector<PreparedInstance> instances;
   Tracer tracer;
   LightSet lights;
+  // For each of the description's lamps, where its light varies: what makes it.
+  struct LampMaterial {
+    std::uint32_t material = ~0u;
+    Placement placement;  // of what the material takes for its object
+  };
+  std::vector<LampMaterial> lamp_materials;
   std::uint32_t world_volume = ~0u;     // the index of its material; none: space is empty
   std::vector<Bounds3f> volume_bounds;  // of each instance that is filled with a volume, at all times
   bool has_volumes = false;             // paths must know what they are in

@@ -102,6 +102,19 @@ void validate_table(const TableOperation& node, const std::string& item) {
   if (!(node.minimum < node.maximum)) throw SceneError(item + ".maximum", "must be greater than minimum");
 }
 
+void validate_ies(const IesOperation& node, const std::string& item) {
+  const auto check_angles = [&](const std::vector<float>& angles, const char* name) {
+    if (angles.empty()) throw SceneError(item + "." + name, "must have an angle at least");
+    if (!std::ranges::is_sorted(angles)) throw SceneError(item + "." + name, "must ascend");
+  };
+  check_angles(node.horizontal, "horizontal");
+  check_angles(node.vertical, "vertical");
+  const std::size_t count = node.horizontal.size() * node.vertical.size();
+  if (node.values.size() != count)
+    throw SceneError(item + ".values", "must be one for each horizontal and vertical angle, " + std::to_string(count) +
+                                           ", has " + std::to_string(node.values.size()));
+}
+
 // What an operation refers to: textures of the scene, and operations before it.
 void validate_operations(const Scene& scene, const Material& material, const std::string& item) {
   for (std::size_t i = 0; i < material.operations.size(); ++i) {
@@ -116,6 +129,7 @@ void validate_operations(const Scene& scene, const Material& material, const std
               validate_id(node.*field.member, scene.textures, field_item, "textures");
           });
           if constexpr (std::same_as<Kind, TableOperation>) validate_table(node, operation_item);
+          if constexpr (std::same_as<Kind, IesOperation>) validate_ies(node, operation_item);
         },
         material.operations[i]);
   }
@@ -208,6 +222,8 @@ void validate_instance(const Scene& scene, std::uint32_t index, const std::vecto
   validate_field(instance.light_group, within(0, light_groups), item, "light_group");
   validate_field(instance.shadow_terminator_offset, within(0, 1), item, "shadow_terminator_offset");
   validate_field(instance.shadow_terminator_shading_offset, within(0, 1), item, "shadow_terminator_shading_offset");
+  for (const ObjectProperty& property : instance.info.properties)
+    validate_field(property.value, {}, item + ".properties", property.name);
   validate_transform(instance.object_to_world, item + ".transform");
   validate_reach(transform_bounds(instance.object_to_world, local), item);
   for (std::size_t key = 0; key < instance.motion_transforms.size(); ++key) {
@@ -224,7 +240,11 @@ void validate_instances(const Scene& scene) {
 void validate_lights(const Scene& scene) {
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const std::string item = entry("lights", i);
-    std::visit([&](const auto& light) { validate_described(light, item); }, scene.lights[i]);
+    const auto validate_light = [&](const auto& light) {
+      validate_described(light, item);
+      if (light.material.is_valid()) validate_id(light.material, scene.materials, item + ".material", "materials");
+    };
+    std::visit(validate_light, scene.lights[i]);
     const auto* sun = std::get_if<SunLight>(&scene.lights[i]);
     if (sun && length_squared(Vec3d(sun->direction)) == 0) throw SceneError(item + ".direction", "must not be zero");
   }

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/table.h"
 #include "geometry/curves.h"
@@ -16,11 +18,18 @@
 
 namespace basicrt {
 
-// Of an object, for Blender's Object Info.
+// What users have noted about an object.
+struct ObjectProperty {
+  std::string name;
+  Vec3f value;  // a number thrice
+};
+
+// Of an object, for Blender's Object Info, and for Attribute nodes that read objects.
 struct ObjectInfo {
   Color color{1.0f};
   float alpha = 1;
   float random = 0;
+  std::vector<ObjectProperty> properties{};
 };
 
 // The part of the plane that the picture shows: where z = 1 for a perspective camera, any across z for an orthographic one.

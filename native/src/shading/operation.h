@@ -6,6 +6,7 @@
 
 #include "shading/color_operations.h"
 #include "shading/gabor_operation.h"
+#include "shading/ies_operation.h"
 #include "shading/math_operations.h"
 #include "shading/noise_operations.h"
 #include "shading/occlusion_operation.h"
@@ -24,6 +25,6 @@ using Operation =
                  AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation,
                  BumpOperation, ImageOperation, CheckerOperation, GradientOperation, WaveOperation, MagicOperation,
                  BrickOperation, NoiseOperation, WhiteNoiseOperation, VoronoiOperation, GaborOperation,
-                 AmbientOcclusionOperation>;
+                 AmbientOcclusionOperation, IesOperation, ObjectPropertyOperation>;
 
 }  // namespace basicrt

@@ -278,6 +278,13 @@ Vec3f eval(const AttributeOperation& node, const Evaluator& in) {
   return Vec3f(node.missing);
 }
 
+Vec3f eval(const ObjectPropertyOperation& node, const Evaluator& in) {
+  if (!in.context.object) return Vec3f(node.missing);
+  const std::vector<ObjectProperty>& properties = in.context.object->properties;
+  const auto found = std::ranges::find(properties, node.name, &ObjectProperty::name);
+  return found == properties.end() ? Vec3f(node.missing) : found->value;
+}
+
 Vec3f eval(const FresnelOperation& node, const Evaluator& in) {
   Vec3f normal = in(node.normal);
   if (length_squared(normal) == 0) normal = viewed_normal(in);

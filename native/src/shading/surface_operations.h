@@ -135,6 +135,20 @@ struct AttributeOperation {
   }
 };
 
+// A named property of the object.
+struct ObjectPropertyOperation {
+  std::string name;
+  float missing = 0;
+
+  bool operator==(const ObjectPropertyOperation&) const = default;
+  static constexpr std::string_view kind = "object_property";
+  static constexpr bool reads_point = true;
+  static constexpr auto fields() {
+    return fields_of(field("name", &ObjectPropertyOperation::name, "of the object's property"),
+                     field("missing", &ObjectPropertyOperation::missing, "where the object has none of that name"));
+  }
+};
+
 enum class FresnelKind : std::uint8_t { fresnel, layer_fresnel, facing };
 template <>
 inline constexpr std::array enum_names<FresnelKind> =
@@ -237,6 +251,7 @@ struct BumpOperation {
 
 [[nodiscard]] Vec3f eval(const SurfaceOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const AttributeOperation& node, const Evaluator& in);
+[[nodiscard]] Vec3f eval(const ObjectPropertyOperation& node, const Evaluator& in);
 // Of the surface, on the viewer's side.
 [[nodiscard]] Vec3f viewed_normal(const Evaluator& in);
 [[nodiscard]] Vec3f eval(const FresnelOperation& node, const Evaluator& in);

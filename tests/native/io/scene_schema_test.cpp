@@ -73,7 +73,8 @@ Json value_schema(const Range& range) {
     return {{"type", "array"}, {"items", range_schema("number", range)}};
   else if constexpr (IsInput<Value>)
     return range == Range{} ? Json{{"$ref", input_name<Value>}} : input_schema<Value>(range);
-  else if constexpr (std::same_as<Value, std::string> || std::same_as<Value, Id<Texture>>)
+  else if constexpr (std::same_as<Value, std::string> || std::same_as<Value, Id<Texture>> ||
+                     std::same_as<Value, Id<Material>>)
     return {{"type", "string"}};
   else
     return {{"enum", enum_names<Value>}};

@@ -94,11 +94,21 @@ Scene make_full_scene() {
                           .materials = {{3}, {}, {2}, {1}, {4}, {0}},
                           .visibility = ray_camera | ray_glossy,
                           .motion_transforms = {Transform{}, transform}});
-  scene.instances.append({.name = "", .shape = {1}, .object_to_world = {}, .materials = {}});
+  scene.instances.append({.name = "",
+                          .shape = {1},
+                          .object_to_world = {},
+                          .materials = {},
+                          .info = {.alpha = 0.3f, .properties = {{"age", {1, 2, 0.1f}}, {"name", Vec3f(0.7f)}}}});
   scene.instances.append({.name = "unseen", .shape = {1}, .object_to_world = {}, .materials = {}, .visibility = 0});
 
   scene.lights.append(PointLight{.position = {0.1f, 2, 3}, .radius = 0.1f, .is_soft = true});
-  scene.lights.append(SpotLight{.to_world = transform, .angle = 0.1f});
+  Material luminaire{.name = "luminaire"};
+  const OperationIndex table = luminaire.add(IesOperation{.horizontal = {0, 0.1f}, .values = {1, 0.3f, 2, 0.7f}});
+  luminaire.surface = luminaire.add(EmissionShader{.radiance = table});
+  scene.lights.append(SpotLight{.to_world = transform,
+                                .angle = 0.1f,
+                                .material = scene.materials.append(luminaire),
+                                .object_to_world = transform});
   scene.lights.append(SunLight{.direction = {0, -1, 0.1f}, .angle = 0.01f});
   scene.lights.append(AreaLight{.to_world = transform, .is_ellipse = true});
   return scene;

@@ -185,6 +185,27 @@ TEST(Validate, a_sun_shines_somewhere) {
             "lights[0].direction: must not be zero");
 }
 
+TEST(Validate, a_lamp_s_material_is_there) {
+  EXPECT_EQ(problem_after([](Scene& scene) { scene.lights.append(PointLight{.material = Id<Material>{7}}); }),
+            "lights[0].material: id 7, but the scene has 1 materials");
+  EXPECT_EQ(problem_after([](Scene& scene) { scene.lights.append(SunLight{.object_to_world = scale(1, 0, 1)}); }),
+            "lights[0].object_transform: is singular: it flattens space and has no inverse");
+}
+
+TEST(Validate, a_luminaire_s_table_is_whole) {
+  const auto problem_of = [](IesOperation node) {
+    Material material;
+    material.operations = {std::move(node)};
+    return problem_of_material(material);
+  };
+  const std::string item = "materials[1].operations[0].";
+  EXPECT_EQ(problem_of({}), "");
+  EXPECT_EQ(problem_of({.vertical = {}}), item + "vertical: must have an angle at least");
+  EXPECT_EQ(problem_of({.horizontal = {1, 0.5f}}), item + "horizontal: must ascend");
+  EXPECT_EQ(problem_of({.values = {1, 2, 3}}),
+            item + "values: must be one for each horizontal and vertical angle, 4, has 3");
+}
+
 TEST(Validate, an_image_has_the_pixels_that_its_size_says) {
   const auto problem_with = [](Image image) {
     return problem_after([&](Scene& scene) { scene.textures.append(ImageTexture{.image = std::move(image)}); });

@@ -48,6 +48,15 @@ TEST(SurfaceOperations, interpolates_attributes_of_each_domain) {
   EXPECT_FLOAT_EQ(value_of(AttributeOperation{.name = "no", .missing = 1}, point_at(0.25f, 0.5f), context).x, 1);
 }
 
+TEST(SurfaceOperations, read_properties_of_the_object_by_name) {
+  const ObjectInfo object{.properties = {{"a", {1, 2, 3}}, {"b", Vec3f(4.0f)}}};
+  const ShadingContext context{.object = &object};
+  EXPECT_EQ(value_of(ObjectPropertyOperation{.name = "a"}, {}, context), (Vec3f{1, 2, 3}));
+  EXPECT_EQ(value_of(ObjectPropertyOperation{.name = "b"}, {}, context), Vec3f(4.0f));
+  EXPECT_EQ(value_of(ObjectPropertyOperation{.name = "c", .missing = 0.5f}, {}, context), Vec3f(0.5f));
+  EXPECT_EQ(value_of(ObjectPropertyOperation{.name = "a"}, {}, {}), Vec3f(0.0f));
+}
+
 TEST(SurfaceOperations, wires_are_as_wide_as_they_say) {
   const Mesh mesh = make_triangle();
   const Placement placement;
