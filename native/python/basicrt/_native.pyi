@@ -6530,7 +6530,7 @@ class RenderSettings:
         transmission_bounces: int = 12,
         volume_bounces: int = 0,
         transparent_bounces: int = 8,
-        rr_threshold: float = 0.5,
+        rr_threshold: float = 0.2,
         light_threshold: float = 0.0,
         clamp_direct: float = 0.0,
         clamp_indirect: float = 0.0,
