@@ -214,22 +214,21 @@ class BASICRT_RENDER_PT_warnings(_Panel, bpy.types.Panel):
 
     bl_label = "Warnings"
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Blender's callback: no warnings, no panel."""
-        return super().poll(context) and bool(shown_warnings())
-
     def draw(self, context: Any) -> None:
         """Blender's callback."""
-        # A label is one line, cut in its middle where it is too long; a letter is 7 pixels wide.
-        width = context.region.width / (7 * context.preferences.system.ui_scale) - 12
         self.layout.prop(settings_of(context.scene), "fail_on_warnings")
+        if not shown_warnings():
+            self.layout.label(text="Nothing to tell of the last render", icon="CHECKMARK")
+        # A label is one line, cut in its middle where it is too long; a letter is 7 pixels wide.
+        width = context.region.width / (7 * context.preferences.system.ui_scale) - 8
         for text in shown_warnings():
+            has_culprit = find_culprit(text) is not None
+            room = max(int(width) - 5 * has_culprit, 10)
             row = self.layout.row()
             column = row.column(align=True)
-            for index, line in enumerate(textwrap.wrap(text, max(int(width), 20))):
+            for index, line in enumerate(textwrap.wrap(text, room)):
                 column.label(text=line, icon="BLANK1" if index else "ERROR")
-            if find_culprit(text):
+            if has_culprit:
                 button: Any = row.operator(
                     "basicrt.select_culprit", text="", icon="RESTRICT_SELECT_OFF"
                 )
