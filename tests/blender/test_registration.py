@@ -2,6 +2,7 @@
 """The add-on registers, shows its panels for its engine alone, and leaves nothing behind."""
 
 from collections.abc import Iterator
+from types import SimpleNamespace
 from typing import Any
 
 import addon
@@ -10,7 +11,7 @@ import pytest
 from addon.report import Report, show_warnings
 from addon.ui import core_panels, panels
 
-from support.blender import new_scene
+from support.blender import add_plane, new_scene
 
 
 @pytest.fixture
@@ -95,19 +96,6 @@ def test_core_panels_are_found_once() -> None:
     assert len(found) == len(set(found))
 
 
-def test_warnings_panel_shows_only_when_there_are_some() -> None:
-    new_scene()
-    panel: Any = bpy.types.BASICRT_RENDER_PT_warnings
-    context = type("Context", (), {"engine": "BASICRT"})
-    show_warnings(Report())
-    assert not panel.poll(context)
-    report = Report()
-    report.warn("item", "message")
-    show_warnings(report)
-    assert panel.poll(context)
-    show_warnings(Report())
-
-
 class DrawnNames:
     """A layout that notes what is drawn, and refuses what its owner doesn't have."""
 
@@ -120,6 +108,57 @@ class DrawnNames:
     def prop(self, owner: Any, name: str, **_options: Any) -> None:
         assert name in owner.bl_rna.properties, name
         self.names.append(name)
+
+
+class DrawnWarnings:
+    """A layout that notes lines of text, and whether a button stands beside them."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self.buttons: list[Any] = []
+
+    def row(self) -> "DrawnWarnings":
+        return self
+
+    def column(self, **_options: Any) -> "DrawnWarnings":
+        return self
+
+    def prop(self, owner: Any, name: str) -> None:
+        assert name in owner.bl_rna.properties
+
+    def label(self, text: str, icon: str) -> None:
+        self.lines.append(text)
+
+    def operator(self, name: str, **_options: Any) -> Any:
+        assert name == "basicrt.select_culprit"
+        self.buttons.append(SimpleNamespace(warning=None))
+        return self.buttons[-1]
+
+
+def draw_warnings(*warnings: tuple[str, str]) -> DrawnWarnings:
+    report = Report()
+    for item, message in warnings:
+        report.warn(item, message)
+    show_warnings(report)
+    layout = DrawnWarnings()
+    context = SimpleNamespace(
+        scene=bpy.context.scene,
+        preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1)),
+        region=SimpleNamespace(width=210),
+    )
+    bpy.types.BASICRT_RENDER_PT_warnings.draw(SimpleNamespace(layout=layout), context)
+    show_warnings(Report())
+    return layout
+
+
+def test_warnings_are_whole_and_have_a_button_where_something_can_be_selected() -> None:
+    new_scene()
+    add_plane().name = "Tiles"
+    shown = draw_warnings(("scene", "an odd thing of many words"), ('object "Tiles"', "is odd"))
+    assert " ".join(shown.lines) == 'scene: an odd thing of many words object "Tiles": is odd'
+    assert max(map(len, shown.lines)) <= 22
+    assert [button.warning for button in shown.buttons] == ['object "Tiles": is odd']
+    assert len(draw_warnings().lines) == 1
 
 
 def test_panoramas_show_what_they_have() -> None:
