@@ -153,9 +153,9 @@ def test_a_world_without_strength_is_black() -> None:
 def test_an_unknown_colour_is_the_sockets_own_with_a_warning() -> None:
     tree, background = world_tree()
     background.inputs["Color"].default_value = (0.25, 0.5, 1, 1)
-    tree.links.new(tree.nodes.new("ShaderNodeTexIES").outputs[0], background.inputs["Color"])
+    tree.links.new(tree.nodes.new("ShaderNodeShaderToRGB").outputs[0], background.inputs["Color"])
     environment = exported(
-        'node "IES Texture" is not supported in a world: the socket\'s own colour is used'
+        'node "Shader to RGB" is not supported in a world: the socket\'s own colour is used'
     )
     assert environment.radiance == (0.25, 0.5, 1)
 
