@@ -21,6 +21,9 @@ class Changes:
     objects: set[int] = field(default_factory=set)
     shapes: set[int] = field(default_factory=set)  # objects and meshes with another geometry
     materials: set[int] = field(default_factory=set)
+    lights: set[int] = field(
+        default_factory=set
+    )  # lamps' data, whose nodes tell of their changes so alone
     has_world: bool = False
 
     def note(self, depsgraph: bpy.types.Depsgraph) -> None:
@@ -39,6 +42,8 @@ class Changes:
             self.is_selection = True
         elif isinstance(b_id, bpy.types.Material):
             self.materials.add(uid(b_id))
+        elif isinstance(b_id, bpy.types.Light):
+            self.lights.add(uid(b_id))
         elif isinstance(b_id, bpy.types.World):
             self.has_world = True
         elif isinstance(b_id, _SHAPES):
@@ -51,7 +56,6 @@ class Changes:
 # What tells of its changes through the objects or materials that have it.
 _SHAPES = (bpy.types.Mesh, bpy.types.Curve, bpy.types.MetaBall)
 _HARMLESS = (
-    bpy.types.Light,
     bpy.types.NodeTree,
     bpy.types.Camera,
     bpy.types.Action,

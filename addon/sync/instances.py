@@ -160,10 +160,10 @@ class Instances:
         textures = self._textures
         return textures.mesh_data.get(material_number), textures.object_data.get(material_number)
 
-    def touch(self, depsgraph: bpy.types.Depsgraph, changes: Changes) -> bool:
+    def touch(self, depsgraph: bpy.types.Depsgraph, changes: Changes, shown: Filter) -> bool:
         """Update the objects that changed and nothing else; False where that can't be done."""
         found = []
-        for number in changes.objects:
+        for number in changes.objects | self._lamps_with(changes.lights):
             b_object: Any = bpy.data.objects.get(self._object_names.get(number, ""))
             if b_object is None or b_object.session_uid != number:
                 return False
@@ -176,7 +176,8 @@ class Instances:
             found.append(evaluated)
         for evaluated in found:
             key = (uid(evaluated), 0, ())
-            if key in self._lights and not self._touch_light(key, evaluated):
+            is_shown_lamp = evaluated.type == "LIGHT" and shown.has_lights
+            if is_shown_lamp and not self._touch_light(key, evaluated):
                 return False
             known = self._known[key]
             if known is None:
@@ -191,6 +192,13 @@ class Instances:
             known.shape = shape
         self._shapes.sweep()
         return True
+
+    def _lamps_with(self, lights: set[int]) -> set[int]:
+        """The numbers of the objects here that have one of these lights."""
+        if not lights:
+            return set()
+        lamps: list[Any] = [each for each in bpy.data.objects if each.type == "LIGHT"]
+        return {uid(one) for one in lamps if uid(one.data) in lights} & self._object_names.keys()
 
     def scan(self, depsgraph: bpy.types.Depsgraph, changes: Changes, shown: Filter) -> None:
         """Go over everything, and convert what is new or changed."""
@@ -289,7 +297,9 @@ class Instances:
             self._lights[key] = self._scene.lights.append(converted)
 
     def _touch_light(self, key: Key, b_object: Any) -> bool:
-        """A lamp that changed; False where it does not shine any more."""
+        """A lamp that changed; False where it begins to shine, or does not shine any more."""
+        if key not in self._lights:
+            return False
         converted = self._convert_light(key, Placed(b_object))
         if converted is not None:
             self._scene.lights[self._lights[key]] = converted

@@ -179,7 +179,7 @@ class SceneSync:
         if not has_same_slots:
             self._instances.forget()
         needs_scan = changes.is_selection or not has_same_slots
-        if needs_scan or not self._instances.touch(depsgraph, changes):
+        if needs_scan or not self._instances.touch(depsgraph, changes, shown):
             self._instances.scan(depsgraph, changes, shown)
 
     def _convert_world(

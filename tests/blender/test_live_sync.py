@@ -196,8 +196,8 @@ def move_lamp(chance: random.Random) -> None:
 def edit_lamp_nodes(chance: random.Random) -> None:
     """Noise in the light of a lamp, or its strength where it has that already."""
     light = chance.choice(objects("LIGHT")).data
-    if bpy.app.version < (5, 1, 0):
-        light.use_nodes = True
+    if bpy.app.version < (5, 1, 0) and not light.use_nodes:
+        light.use_nodes = True  # tells of a change of the object, too
     emission = next(n for n in light.node_tree.nodes if n.type == "EMISSION")
     emission.inputs["Strength"].default_value = chance.uniform(1, 2)
     if not emission.inputs["Color"].is_linked:
