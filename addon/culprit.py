@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -22,27 +23,21 @@ class Culprit:
 def find_culprit(text: str) -> Culprit | None:
     """What `object "Cube": ...` or `material "Glass": node "Noise Texture": ...` is about; None for other things.
 
-    Names may hold anything, so that what there is is looked for in the text, not the text taken apart.
+    Names may hold anything: the longest that there is counts. Panels ask whenever they are drawn, so that nothing
+    here goes over all objects.
     """
-    for kind, names in _names():
-        found = [name for name in names if text.startswith(f'{kind} "{name}": ')]
-        if found:
-            name = max(found, key=len)
-            return Culprit(kind, name, _node_in(text[len(f'{kind} "{name}": ') :], kind, name))
+    kind, _, rest = text.partition(' "')
+    for end in reversed([found.start() for found in re.finditer('": ', rest)]):
+        name = rest[:end]
+        if _is_there(kind, name):
+            return Culprit(kind, name, _node_in(rest[end + 3 :], kind, name))
     return None
 
 
-def _names() -> Iterator[tuple[str, list[str]]]:
-    data = bpy.data
-    yield "object", [b_object.name for b_object in data.objects]
-    yield "material", [material.name for material in data.materials]
-    yield "light", [*(light.name for light in data.lights), *_objects_named("LIGHT")]
-    yield "camera", _objects_named("CAMERA")
-    yield "world", [world.name for world in data.worlds]
-
-
-def _objects_named(kind: str) -> list[str]:
-    return [b_object.name for b_object in bpy.data.objects if b_object.type == kind]
+def _is_there(kind: str, name: str) -> bool:
+    b_object: Any = bpy.data.objects.get(name)
+    is_object = b_object is not None and kind in ("object", b_object.type.lower())
+    return is_object or _owner_of_nodes(kind, name) is not None
 
 
 def _node_in(message: str, kind: str, name: str) -> str | None:
@@ -54,14 +49,18 @@ def _node_in(message: str, kind: str, name: str) -> str | None:
     return max(names, key=len, default=None)
 
 
-def tree_of(kind: str, name: str) -> Any:
-    """The nodes of a material, light or world; None where there are none."""
+def _owner_of_nodes(kind: str, name: str) -> Any:
     tables: dict[str, Any] = {
         "material": bpy.data.materials,
         "light": bpy.data.lights,
         "world": bpy.data.worlds,
     }
-    owner = tables[kind].get(name) if kind in tables else None
+    return tables[kind].get(name) if kind in tables else None
+
+
+def tree_of(kind: str, name: str) -> Any:
+    """The nodes of a material, light or world; None where there are none."""
+    owner = _owner_of_nodes(kind, name)
     return owner.node_tree if owner else None
 
 

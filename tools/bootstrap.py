@@ -53,6 +53,13 @@ def ensure_system() -> None:
         raise ToolError("no C++ compiler found: install g++ 12 or clang++ 15, or newer")
 
 
+def ensure_build_tools() -> None:
+    """What compiles the core: the system's, and of CMake and Ninja what pip has to bring."""
+    ensure_system()
+    if missing_build_tools():
+        ensure_venv("dev")
+
+
 def demo_blender() -> str:
     """The Blender version for the demo: 5.0, or 5.2 where only Python 3.13 is available."""
     return "5.0" if "3.11" in available_pythons() else "5.2"

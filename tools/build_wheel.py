@@ -57,9 +57,7 @@ def wheel_path(python_version: str) -> Path:
 
 def build_core() -> Path:
     """The core library, compiled once for all wheels in the folder of `cmake --preset release`."""
-    bootstrap.ensure_system()
-    if bootstrap.missing_build_tools():
-        bootstrap.ensure_venv("dev")
+    bootstrap.ensure_build_tools()
     build = ROOT / "build"
     with bootstrap.locked("core"):
         if not (build / "CMakeCache.txt").exists():

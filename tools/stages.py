@@ -147,9 +147,7 @@ def pytest(context: Context, python: Path, folders: Sequence[str], *options: str
 
 def build_and_test(context: Context, preset: str, build: Path, prefix: Command = ()) -> Counts:
     """Configure, compile and run the C++ tests of one CMake preset."""
-    bootstrap.ensure_system()
-    if bootstrap.missing_build_tools():
-        bootstrap.ensure_venv("dev")
+    bootstrap.ensure_build_tools()
     counts = Counts()
     configure = ["cmake", "--preset", preset, *generator(build)]
     compile_all: Command = [*prefix, "cmake", "--build", build]

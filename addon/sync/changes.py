@@ -21,9 +21,7 @@ class Changes:
     objects: set[int] = field(default_factory=set)
     shapes: set[int] = field(default_factory=set)  # objects and meshes with another geometry
     materials: set[int] = field(default_factory=set)
-    lights: set[int] = field(
-        default_factory=set
-    )  # lamps' data, whose nodes tell of their changes so alone
+    lights: set[int] = field(default_factory=set)  # lamps' data: all that their nodes tell of
     has_world: bool = False
 
     def note(self, depsgraph: bpy.types.Depsgraph) -> None:

@@ -205,9 +205,8 @@ LightTree::Weights LightTree::weigh(const Node& node, const LitPoint& point) {
       const Float4 greatest = cos_of_rest(incident, sin_of(incident), cos_seen, sin_seen);
       const Float4 above = nx * x + ny * y + nz * z + abs(nx) * four(node.half_x, i) + abs(ny) * four(node.half_y, i) +
                            abs(nz) * four(node.half_z, i);
-      const Mask4 is_below = above * inverse < slack;
-      weight = weight * select(is_below, zero,
-                               select(greatest < slack, zero, max(between(max(incident, zero), greatest), least)));
+      const Mask4 is_below = (above * inverse < slack) | (greatest < slack);
+      weight = weight * select(is_below, zero, max(between(max(incident, zero), greatest), least));
     }
     // Near a group, lights are spread all around: no nearer than half its radius on average.
     const Float4 divisor = max(max(distance_squared, radius_squared * Float4::all(0.25f)), Float4::all(1e-30f));
