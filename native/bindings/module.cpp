@@ -18,6 +18,7 @@ PYBIND11_MODULE(_native, m) {
   register_lights(m);
   register_cameras(m);
   register_settings(m);
+  register_machine(m);
   register_scene(m);
   register_baking(m);
   register_session(m);

@@ -15,6 +15,7 @@ void register_materials(pybind11::module_& m);
 void register_lights(pybind11::module_& m);
 void register_cameras(pybind11::module_& m);
 void register_settings(pybind11::module_& m);
+void register_machine(pybind11::module_& m);
 void register_scene(pybind11::module_& m);
 void register_baking(pybind11::module_& m);
 void register_session(pybind11::module_& m);

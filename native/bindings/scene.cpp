@@ -12,6 +12,7 @@
 #include "path_argument.h"
 #include "register.h"
 #include "scene/mattes.h"
+#include "scene/memory.h"
 #include "scene_lease.h"
 
 namespace basicrt::bindings {
@@ -213,6 +214,9 @@ void register_scene(py::module_& m) {
       .def(
           "range_metadata", [](BoundScene& self) { return range_metadata(SceneLease(self).scene()); },
           "JSON with which samples of which picture settings.samples_from and samples_to choose, for merging.")
+      .def(
+          "memory", [](BoundScene& self) { return expected_memory(SceneLease(self).scene()); },
+          "SceneMemory that rendering will take, before anything is built: trees are the smallest that there could be.")
       .def("draw_environment", &draw_environment_in, py::arg("material"), py::arg("width") = 1024,
            py::arg("height") = 512, py::arg("is_camera_ray") = true,
            "What a material that emits shows in each direction, as an Image for an EnvironmentLayer, equirectangular. "

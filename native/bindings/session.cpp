@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "described.h"
 #include "register.h"
+#include "scene/memory.h"
 #include "scene_lease.h"
 
 namespace basicrt::bindings {
@@ -29,7 +30,7 @@ constexpr Seconds signal_interval{0.1};
 class BoundSession {
  public:
   BoundSession(PreparedScene scene, SessionOptions options, std::optional<Baking> baking)
-      : tree_bytes_(scene.tracer.memory()),
+      : memory_(memory_of(scene)),
         session_(std::make_unique<Session>(std::move(scene), options, std::move(baking))),
         rect_(session_->rect()) {}
 
@@ -68,7 +69,7 @@ class BoundSession {
   [[nodiscard]] bool is_stopped() const { return session_ ? session_->is_stopped() : was_stopped_; }
   [[nodiscard]] Progress progress() const { return session_ ? session_->progress() : last_progress_; }
   [[nodiscard]] PixelRect rect() const { return rect_; }
-  [[nodiscard]] std::size_t tree_bytes() const { return tree_bytes_; }
+  [[nodiscard]] SceneMemory memory() const { return memory_; }
 
  private:
   std::optional<Tile> wait(Seconds timeout) {
@@ -81,7 +82,7 @@ class BoundSession {
     return session_->next_tile(timeout);
   }
 
-  std::size_t tree_bytes_;
+  SceneMemory memory_;
   std::unique_ptr<Session> session_;  // none after close()
   PixelRect rect_;
   Progress last_progress_;
@@ -267,8 +268,10 @@ bake(). As a context manager it stops and joins its threads at the end.)")
       .def("stop", &BoundSession::stop, "No further tile is finished. Any thread may call it, at any time.")
       .def_property_readonly("is_stopped", &BoundSession::is_stopped)
       .def_property_readonly("progress", &BoundSession::progress)
-      .def_property_readonly("tree_bytes", &BoundSession::tree_bytes,
-                             "memory of the trees that rays walk, with the triangles that they hold")
+      .def_property_readonly("memory", &BoundSession::memory, "SceneMemory of what is rendered")
+      .def_property_readonly(
+          "tree_bytes", [](const BoundSession& self) { return self.memory().trees; },
+          "memory of the trees that rays walk, with the triangles that they hold")
       .def_property_readonly(
           "rect",
           [](const BoundSession& self) {

@@ -53,6 +53,7 @@ class BoundViewSession {
       throw;
     }
   }
+  [[nodiscard]] std::optional<SceneMemory> memory() { return open().memory(); }
   [[nodiscard]] std::vector<std::string> take_warnings() { return open().take_warnings().warnings(); }
 
   void close() {
@@ -139,6 +140,8 @@ makes the calls.)")
       .def_property_readonly("has_picture", &BoundViewSession::has_picture, "there is one to take")
       .def_property_readonly("status", &BoundViewSession::status,
                              "Raises SceneError, once, where the scene can't be rendered.")
+      .def_property_readonly("memory", &BoundViewSession::memory,
+                             "SceneMemory of the scene that was prepared last, None until one was")
       .def("take_warnings", &BoundViewSession::take_warnings,
            "What preparing the scene had to say since the last call.")
       .def("close", &BoundViewSession::close, "Stops and joins the threads.");

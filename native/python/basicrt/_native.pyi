@@ -83,6 +83,7 @@ __all__: list[str] = [
     "RotateOperation",
     "Scene",
     "SceneError",
+    "SceneMemory",
     "SceneWarning",
     "Session",
     "ShapeTable",
@@ -114,11 +115,15 @@ __all__: list[str] = [
     "WaveOperation",
     "WhiteNoiseOperation",
     "WireframeOperation",
+    "choose_kernel",
+    "chosen_kernel",
+    "kernels",
     "load_scene",
     "look_at_camera",
     "merge_sums",
     "native_version",
     "passes",
+    "processor_count",
 ]
 
 class SceneError(ValueError):
@@ -6875,6 +6880,44 @@ class RenderSettings:
     @width.setter
     def width(self, value: int) -> None: ...
 
+class SceneMemory:
+    """
+    How many bytes a scene takes while it is rendered.
+
+    What is small is left out (materials, tables of lights), and what builders of trees need for a moment.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def images(self) -> int:
+        """
+        of textures and the environment, each once
+        """
+    @property
+    def instances(self) -> int:
+        """
+        the same, with what rays need to know of each
+        """
+    @property
+    def picture(self) -> int:
+        """
+        a number for each channel of the passes and each pixel
+        """
+    @property
+    def shapes(self) -> int:
+        """
+        twice: as they are described, and as they are rendered
+        """
+    @property
+    def total(self) -> int:
+        """
+        all of them
+        """
+    @property
+    def trees(self) -> int:
+        """
+        that rays walk, with the triangles that they hold
+        """
+
 class Instance:
     """
     A shape placed in the world.
@@ -7176,6 +7219,10 @@ class Scene:
         """
         Entries of an EXR header for the Cryptomatte passes among settings.passes; `prefix` comes before the layers' names.
         """
+    def memory(self) -> SceneMemory:
+        """
+        SceneMemory that rendering will take, before anything is built: trees are the smallest that there could be.
+        """
     def range_metadata(self) -> str:
         """
         JSON with which samples of which picture settings.samples_from and samples_to choose, for merging.
@@ -7459,6 +7506,11 @@ class Session:
     @property
     def is_stopped(self) -> bool: ...
     @property
+    def memory(self) -> SceneMemory:
+        """
+        SceneMemory of what is rendered
+        """
+    @property
     def progress(self) -> Progress: ...
     @property
     def rect(self) -> tuple[int, int, int, int]:
@@ -7579,10 +7631,30 @@ class ViewSession:
         there is one to take
         """
     @property
+    def memory(self) -> SceneMemory | None:
+        """
+        SceneMemory of the scene that was prepared last, None until one was
+        """
+    @property
     def status(self) -> ViewStatus:
         """
         Raises SceneError, once, where the scene can't be rendered.
         """
+
+def choose_kernel(name: str = "") -> None:
+    """
+    Traces rays with this one of kernels() from now on, in what is being rendered too; "" leaves the choice to BASICRT_ISA and the machine again. Pictures do not depend on it. Raises SceneError where there is none of that name.
+    """
+
+def chosen_kernel() -> str:
+    """
+    That which rays are traced with: what choose_kernel() was told, or the environment variable BASICRT_ISA says, or the best. Raises SceneError where there isn't what the variable names.
+    """
+
+def kernels() -> list[str]:
+    """
+    Names of the instruction sets that rays can be traced with on this machine, the best first.
+    """
 
 def load_scene(
     path: str | os.PathLike[str],
@@ -7625,4 +7697,9 @@ def native_version() -> str:
 def passes() -> list[PassInfo]:
     """
     Every pass there is.
+    """
+
+def processor_count() -> int:
+    """
+    How many threads 0 stands for.
     """

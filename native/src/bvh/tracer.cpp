@@ -139,13 +139,15 @@ double plane_distance(const KernelInstance& instance, const KernelRay& ray, cons
 
 }  // namespace
 
-Tracer::Tracer() : kernel_(&chosen_kernel()) {}
+// Asks for a kernel so that a bad BASICRT_ISA is told of here: nothing may throw while rays are traced.
+Tracer::Tracer() { (void)chosen_kernel(); }
 Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
 Tracer::Tracer(std::vector<ShapeTree> trees, std::vector<TracedInstance> instances, const BvhConfig& config)
-    : kernel_(&chosen_kernel()), trees_(std::move(trees)), instances_(std::move(instances)) {
+    : trees_(std::move(trees)), instances_(std::move(instances)) {
+  (void)chosen_kernel();
   for (const ShapeTree& tree : trees_) kernel_intervals_.push_back(kernel_intervals(tree));
   boxes_.reserve(instances_.size());
   kernel_instances_.reserve(instances_.size() + 1);
@@ -277,12 +279,14 @@ KernelScene Tracer::kernel_scene() const {
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
   BASICRT_ASSERT(rays.size() == hits.size());
-  kernel_->intersect(kernel_scene(), rays.data(), hits.data(), rays.size(), kernel_scratch(kernel_->scratch_size));
+  const Kernel& kernel = kernel_ ? *kernel_ : chosen_kernel();
+  kernel.intersect(kernel_scene(), rays.data(), hits.data(), rays.size(), kernel_scratch(kernel.scratch_size));
 }
 
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> results) const {
   BASICRT_ASSERT(rays.size() == results.size());
-  kernel_->occluded(kernel_scene(), rays.data(), results.data(), rays.size(), kernel_scratch(kernel_->scratch_size));
+  const Kernel& kernel = kernel_ ? *kernel_ : chosen_kernel();
+  kernel.occluded(kernel_scene(), rays.data(), results.data(), rays.size(), kernel_scratch(kernel.scratch_size));
 }
 
 std::size_t Tracer::memory() const {

@@ -51,7 +51,7 @@ class Tracer {
   // Gives the trees back, so that the next Tracer need not build them again. Leaves this one empty.
   [[nodiscard]] std::vector<ShapeTree> take_trees();
 
-  // For tests and benchmarks: with this kernel instead of the machine's best.
+  // For tests and benchmarks: with this kernel instead of the chosen one.
   void use(const Kernel& kernel) { kernel_ = &kernel; }
 
  private:
@@ -63,7 +63,7 @@ class Tracer {
   // The nearest hit on one instance in double precision: for what kernels don't walk.
   [[nodiscard]] bool intersect_precisely(std::uint32_t instance, const Ray& ray, Hit& hit) const;
 
-  const Kernel* kernel_;
+  const Kernel* kernel_ = nullptr;  // none: the chosen one, whichever that is when rays are traced
   std::vector<ShapeTree> trees_;
   std::vector<TracedInstance> instances_;
   std::vector<Bounds3f> boxes_;                                // of the instances, in the world

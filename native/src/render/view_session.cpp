@@ -105,6 +105,7 @@ struct ViewSession::State {
   bool is_at_work = false;
   Clock::time_point view_begin = Clock::now();
   Report report;
+  std::optional<SceneMemory> memory;  // of the scene
   std::exception_ptr error;
   std::unique_ptr<WorkProgress> progress;  // while preparing
 
@@ -189,9 +190,11 @@ void ViewSession::State::prepare_scene(const Scene& next, std::unique_lock<std::
   if (described_by != &next) scene = {};  // revisions of another scene mean nothing
   described_by = &next;
   std::exception_ptr failure;
+  std::optional<SceneMemory> used;
   try {
     scene = prepare(next, said, std::move(scene), {.threads = pool.thread_count(), .progress = progress.get()});
     has_scene = true;
+    used = memory_of(scene);
   } catch (const Cancelled&) {  // it is over
   } catch (...) {
     scene = {};
@@ -200,6 +203,7 @@ void ViewSession::State::prepare_scene(const Scene& next, std::unique_lock<std::
   lock.lock();
   progress.reset();
   is_preparing = false;
+  memory = used;
   for (const std::string& warning : said.warnings()) report.warn(warning);
   if (failure) std::rethrow_exception(failure);
 }
@@ -312,6 +316,11 @@ void ViewSession::set_paused(bool is_paused) {
 bool ViewSession::has_picture() const {
   const std::lock_guard lock(state_->mutex);
   return state_->picture.has_value();
+}
+
+std::optional<SceneMemory> ViewSession::memory() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->memory;
 }
 
 std::optional<ViewPicture> ViewSession::take_picture() {

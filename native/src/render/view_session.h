@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/report.h"
-#include "scene/prepare.h"
+#include "scene/memory.h"
 
 namespace basicrt {
 
@@ -58,6 +58,8 @@ class ViewSession {
   [[nodiscard]] bool has_picture() const;
   // Throws, once, what ended the work on the scene or the view that was set last.
   [[nodiscard]] ViewStatus status();
+  // Of the scene that was prepared last; nothing until one was.
+  [[nodiscard]] std::optional<SceneMemory> memory() const;
   // What preparing the scene had to say.
   [[nodiscard]] Report take_warnings();
 

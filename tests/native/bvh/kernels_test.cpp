@@ -9,12 +9,15 @@
 #include <cstring>
 #include <numbers>
 #include <string>
+#include <string_view>
 
+#include "base/error.h"
 #include "bvh/kernels/chosen_kernel.h"
 #include "bvh/kernels/scratch.h"
 #include "bvh/node_order.h"
 #include "bvh/test_scenes.h"
 #include "bvh/tree_access.h"
+#include "geometry/kernels/chosen_point_kernel.h"
 #include "geometry/surface_point.h"
 
 namespace basicrt {
@@ -477,6 +480,21 @@ TEST(Kernels, are_found_by_name) {
   EXPECT_NE(find_kernel(""), nullptr);
   EXPECT_EQ(find_kernel("avx1024"), nullptr);
   EXPECT_STREQ(find_kernel("scalar")->name, "scalar");
+}
+
+TEST(Kernels, can_be_chosen_while_a_program_runs) {
+  const std::string first = chosen_kernel().name, first_for_points = chosen_point_kernel().name;
+  for (const std::string_view name : kernel_names()) {
+    choose_kernel(name);
+    EXPECT_EQ(chosen_kernel().name, name);
+    EXPECT_STREQ(chosen_point_kernel().name, name.starts_with("avx") ? "avx2" : "plain");
+  }
+  EXPECT_EQ(kernel_names().back(), "scalar");
+  EXPECT_THROW(choose_kernel("avx1024"), SceneError);
+  EXPECT_STREQ(chosen_kernel().name, "scalar");
+  choose_kernel("");
+  EXPECT_EQ(chosen_kernel().name, first);
+  EXPECT_EQ(chosen_point_kernel().name, first_for_points);
 }
 
 }  // namespace

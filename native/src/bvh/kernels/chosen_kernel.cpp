@@ -3,10 +3,13 @@
 #include "bvh/kernels/chosen_kernel.h"
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "base/error.h"
+#include "geometry/kernels/chosen_point_kernel.h"
 
 namespace basicrt {
 
@@ -45,14 +48,24 @@ auto choices() {
 #endif
 }
 
+// `item` is who asks for it.
+const Kernel& need_kernel(std::string_view name, std::string_view item) {
+  if (const Kernel* kernel = find_kernel(name)) return *kernel;
+  std::string problem("'");
+  problem.append(name).append("' is not available here; it must be one of");
+  for (const std::string_view known : kernel_names()) problem.append(" ").append(known);
+  throw SceneError(item, problem);
+}
+
 const Kernel& choose() {
   const char* name = std::getenv("BASICRT_ISA");
-  if (name == nullptr || *name == '\0') return *find_kernel("");
-  if (const Kernel* kernel = find_kernel(name)) return *kernel;
-  std::string message = std::string("BASICRT_ISA: '") + name + "' is not available here; it must be one of";
-  for (const Choice& choice : choices())
-    if (choice.is_supported) message += std::string(" ") + choice.kernel.name;
-  throw std::runtime_error(message);
+  return need_kernel(name == nullptr ? "" : name, "BASICRT_ISA");
+}
+
+// None: nobody has asked yet.
+std::atomic<const Kernel*>& chosen() {
+  static std::atomic<const Kernel*> kernel = nullptr;
+  return kernel;
 }
 
 }  // namespace
@@ -64,8 +77,25 @@ const Kernel* find_kernel(std::string_view name) {
 }
 
 const Kernel& chosen_kernel() {
-  static const Kernel& kernel = choose();
-  return kernel;
+  const Kernel* kernel = chosen().load(std::memory_order_acquire);
+  if (kernel == nullptr) {
+    // Who chooses meanwhile counts.
+    const Kernel* first = &choose();
+    kernel = chosen().compare_exchange_strong(kernel, first) ? first : kernel;
+  }
+  return *kernel;
+}
+
+void choose_kernel(std::string_view name) {
+  chosen() = name.empty() ? &choose() : &need_kernel(name, "choose_kernel");
+  choose_point_kernel(name);
+}
+
+std::vector<std::string_view> kernel_names() {
+  std::vector<std::string_view> names;
+  for (const Choice& choice : choices())
+    if (choice.is_supported) names.emplace_back(choice.kernel.name);
+  return names;
 }
 
 }  // namespace basicrt

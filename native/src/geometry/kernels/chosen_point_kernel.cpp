@@ -2,6 +2,7 @@
 // Chooses what solves hits on triangles.
 #include "geometry/kernels/chosen_point_kernel.h"
 
+#include <atomic>
 #include <cstdlib>
 
 namespace basicrt {
@@ -17,16 +18,18 @@ extern const PointKernel point_kernel;
 
 namespace {
 
-// AVX-512 machines have AVX2.
-bool is_avx2_wanted() {
+// AVX-512 machines have AVX2. The environment variable says which where `isa` is empty.
+const PointKernel& choose(std::string_view isa) {
   const char* name = std::getenv("BASICRT_ISA");
-  const std::string_view wanted = name == nullptr ? "" : name;
-  return wanted.empty() || wanted == "avx2" || wanted == "avx512";
+  if (isa.empty() && name != nullptr) isa = name;
+  const bool is_avx2_wanted = isa.empty() || isa == "avx2" || isa == "avx512";
+  const PointKernel* avx2 = is_avx2_wanted ? find_point_kernel("avx2") : nullptr;
+  return avx2 != nullptr ? *avx2 : plain::point_kernel;
 }
 
-const PointKernel& choose() {
-  const PointKernel* avx2 = is_avx2_wanted() ? find_point_kernel("avx2") : nullptr;
-  return avx2 != nullptr ? *avx2 : plain::point_kernel;
+std::atomic<const PointKernel*>& chosen() {
+  static std::atomic<const PointKernel*> kernel = &choose({});
+  return kernel;
 }
 
 }  // namespace
@@ -38,9 +41,8 @@ const PointKernel* find_point_kernel(std::string_view name) {
   return name == plain::point_kernel.name ? &plain::point_kernel : nullptr;
 }
 
-const PointKernel& chosen_point_kernel() {
-  static const PointKernel& kernel = choose();
-  return kernel;
-}
+const PointKernel& chosen_point_kernel() { return *chosen().load(std::memory_order_acquire); }
+
+void choose_point_kernel(std::string_view isa) { chosen() = &choose(isa); }
 
 }  // namespace basicrt
