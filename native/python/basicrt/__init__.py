@@ -126,6 +126,7 @@ from .merging import merge
 from .ray_kinds import RayKind
 from .rendering import render
 from .scene_files import load_scene
+from .self_testing import SelfTestCheck, SelfTestResult, self_test
 
 __version__ = "0.1.0"
 
@@ -204,6 +205,8 @@ __all__ = [
     "SceneError",
     "SceneMemory",
     "SceneWarning",
+    "SelfTestCheck",
+    "SelfTestResult",
     "Session",
     "SheenShader",
     "SingleScatteringSky",
@@ -248,6 +251,7 @@ __all__ = [
     "processor_count",
     "read_exr",
     "render",
+    "self_test",
     "write_exr",
     "write_png",
 ]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command line: basicrt render, basicrt compare, basicrt info.
+"""The command line: basicrt render, merge, compare, info and self-test.
 
 Exit status: 0 done; 1 failed, or pictures differ by more than the threshold; 2 wrong usage; 130 interrupted.
 """
@@ -114,6 +114,12 @@ def _make_parser() -> argparse.ArgumentParser:
         "--threshold", type=float, help="exit with 1 where the metric is over this"
     )
 
+    test = commands.add_parser(
+        "self-test", help="render what is known, and say whether all is as it should be"
+    )
+    test.set_defaults(command=_self_test)
+    test.add_argument("--threads", type=int, default=0, help="default: one per processor")
+
     info = commands.add_parser("info", help="describe this installation, or a scene file")
     info.set_defaults(command=_info)
     info.add_argument("scene", type=Path, nargs="?", help="scene.json")
@@ -134,8 +140,7 @@ def _render(options: argparse.Namespace) -> int:
         raise CommandError(f"{output}: the name must end in .exr or .png")
     if options.spp is not None and options.spp < 1:
         raise CommandError(f"--spp: must be at least 1, is {options.spp}")
-    if options.threads < 0:
-        raise CommandError(f"--threads: must be at least 0, is {options.threads}")
+    _check_threads(options)
     if options.denoise:
         basicrt.check_denoiser()
     check_writable(output)
@@ -288,6 +293,21 @@ def _compare(options: argparse.Namespace) -> int:
     return 1  # also for NaN
 
 
+def _self_test(options: argparse.Namespace) -> int:
+    _check_threads(options)
+    result = basicrt.self_test(options.threads)
+    print(result.machine)
+    for check in result.checks:
+        print(f"{'ok    ' if check.is_ok else 'FAILED'} {check.name}: {check.detail}")
+    print("OK" if result.is_ok else "FAILED")
+    return 0 if result.is_ok else 1
+
+
+def _check_threads(options: argparse.Namespace) -> None:
+    if options.threads < 0:
+        raise CommandError(f"--threads: must be at least 0, is {options.threads}")
+
+
 def _info(options: argparse.Namespace) -> int:
     if options.scene is not None:
         _describe_scene(basicrt.load_scene(options.scene))
@@ -296,6 +316,7 @@ def _info(options: argparse.Namespace) -> int:
     print(
         f"Python {platform.python_version()}, numpy {np.__version__}, {os.cpu_count()} processors"
     )
+    print(f"instructions: {basicrt.chosen_kernel()} (of {', '.join(basicrt.kernels())})")
     print("passes: " + ", ".join(f"{info.name} ({info.channels})" for info in basicrt.passes()))
     for module, purpose in (
         ("OpenEXR", "reads and writes .exr"),
