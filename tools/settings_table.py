@@ -16,7 +16,7 @@ TABLE = ROOT / "docs/settings.md"
 
 INTRODUCTION = """# Settings, one by one
 
-All that BasicRT adds to Blender's data, as scripts write it; the text of each is its tooltip.
+All that BasicRT adds to Blender's data and preferences, as scripts write it; the text of each is its tooltip.
 `tools/settings_table.py` writes this page from the definitions, and `tests/blender/test_settings_table.py`
 holds it against them.
 [Which value counts](blender_settings.md) where Cycles has the same setting says another page.
@@ -26,6 +26,7 @@ GROUPS = (
     ("Scene", "Render settings", "scene.basicrt"),
     ("View3DShading", "Viewport settings", "space_view3d.shading.basicrt"),
 )
+PREFERENCES = 'bpy.context.preferences.addons["bl_ext.user_default.basicrt"].preferences'
 # Beyond, a limit is none.
 LARGE = 1e9
 
@@ -62,7 +63,7 @@ def kind(made: Any) -> tuple[str, str]:
 def rows(made: Any) -> Iterator[str]:
     """A line for each property of a group."""
     for item in made.properties:
-        if item.identifier in ("rna_type", "name", "bl_system_properties_get"):
+        if item.identifier in ("rna_type", "name", "bl_idname", "bl_system_properties_get"):
             continue
         allowed, default = kind(item)
         text = item.description.rstrip(".")
@@ -76,14 +77,30 @@ def table() -> str:
     parts = [INTRODUCTION]
     for owner, heading, place in GROUPS:
         made: Any = getattr(bpy.types, owner).bl_rna.properties["basicrt"].fixed_type
-        lines = [
-            f"\n## {heading}: `{place}`\n",
-            "| property | in the interface | values | default | |",
-            "|---|---|---|---|---|",
-            *rows(made),
-        ]
-        parts.append("\n".join(lines) + "\n")
+        parts.append(section(heading, place, made))
+    parts.append(section("Preferences", PREFERENCES, preferences_class().bl_rna))
     return "".join(parts)
+
+
+def section(heading: str, place: str, made: Any) -> str:
+    """A group's heading and its table."""
+    lines = [
+        f"\n## {heading}: `{place}`\n",
+        "| property | in the interface | values | default | |",
+        "|---|---|---|---|---|",
+        *rows(made),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def preferences_class() -> Any:
+    """That of the add-on which is registered: `bpy.types` doesn't name it."""
+    import bpy
+
+    classes: list[Any] = bpy.types.AddonPreferences.__subclasses__()
+    return next(
+        made for made in classes if made.__name__ == "BasicRTPreferences" and made.is_registered
+    )
 
 
 def main() -> int:

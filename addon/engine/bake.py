@@ -16,6 +16,7 @@ from ..export.identity import uid
 from ..report import ExportError, Report
 from ..sync.scene_sync import SceneSync
 from .command_line import Overrides
+from .machine import thread_count
 from .starting import CancelledError, building_watch, start_session
 
 POLL_SECONDS = 0.05
@@ -47,9 +48,8 @@ class ObjectBake:
         self._sync = SceneSync(report)
         self._sync.update(depsgraph, view)
         overrides.apply(self._sync.exported.scene.settings, b_scene)
-        self._threads = overrides.threads
-        if self._threads is None:
-            self._threads = int(b_scene.render.threads)
+        self._overrides = overrides
+        self._threads = thread_count(b_scene, overrides)
         self._images = 0
 
     def bake_image(
@@ -80,11 +80,12 @@ class ObjectBake:
             started = start_session(
                 self._sync.exported,
                 self._report,
+                self._overrides,
                 lambda: basicrt.bake_session(
                     self._sync.exported.scene,
                     target,
                     plan,
-                    threads=self._threads or 0,
+                    threads=self._threads,
                     preparing=building_watch(self._engine, self._is_cancelled),
                 ),
             )

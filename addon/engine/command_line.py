@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import math
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 _PREFIX = "--basicrt-"
 _STRICT = f"{_PREFIX}strict"
+_MEMORY_LIMIT = f"{_PREFIX}memory-limit"
 
 
 @dataclass(frozen=True)
@@ -30,10 +32,11 @@ class Overrides:
     threads: int | None = None  # 0 is one for each processor
     samples_from: int | None = None
     samples_to: int | None = None
+    memory_limit: float | None = None  # GB of 2^30 bytes; 0 is none
     fails_on_warnings: bool = False
 
     def apply(self, settings: basicrt.RenderSettings, b_scene: bpy.types.Scene) -> None:
-        """Put them into exported settings; threads and warnings are none."""
+        """Put them into exported settings; threads, memory and warnings are none."""
         from ..export.settings import seed_of_frame
 
         if self.samples is not None:
@@ -66,6 +69,16 @@ def _whole_number(least: int, most: int) -> Callable[[str], int]:
     return convert
 
 
+def _gigabytes(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = -1
+    if not 0 <= number < math.inf:
+        raise argparse.ArgumentTypeError(f'must be a number of GB, at least 0, is "{text}"')
+    return number
+
+
 # Each with the least and the most that it may be.
 _LIMITS = {
     "samples": (1, 1 << 24),
@@ -84,6 +97,7 @@ def parse(arguments: Sequence[str]) -> Overrides:
     parser = _Parser(add_help=False, allow_abbrev=False)
     for name, limits in _LIMITS.items():
         parser.add_argument(_flag(name), dest=name, type=_whole_number(*limits), metavar="NUMBER")
+    parser.add_argument(_MEMORY_LIMIT, dest="memory_limit", type=_gigabytes, metavar="GB")
     parser.add_argument(_STRICT, dest="fails_on_warnings", action="store_true")
     behind = arguments[arguments.index("--") + 1 :] if "--" in arguments else ()
     known, others = parser.parse_known_args(behind)
@@ -98,7 +112,7 @@ def _flag(name: str) -> str:
 
 
 def _unknown(flag: str) -> str:
-    flags = [*map(_flag, _LIMITS), _STRICT]
+    flags = [*map(_flag, _LIMITS), _MEMORY_LIMIT, _STRICT]
     nearest = difflib.get_close_matches(flag, flags, n=1, cutoff=0.8)
     advice = f"did you mean {nearest[0]}?" if nearest else f"there are {', '.join(flags)}"
     return f"{flag}: unknown option; {advice}"

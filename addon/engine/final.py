@@ -17,12 +17,14 @@ from ..report import (
     HeldReport,
     Report,
     caught,
+    log,
     refuse_warnings,
     show_warnings,
     summary,
 )
 from . import command_line
 from .denoise import LayerDenoiser, can_denoise
+from .machine import thread_count
 from .result import NOISY_PASS, ResultWriter, complete_without_pixels
 from .starting import CancelledError, building_watch, start_session
 from .status import show_status
@@ -178,8 +180,15 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         from . import preview
 
         layer = depsgraph.view_layer
-        names, threads = pass_names(layer), int(depsgraph.scene.render.threads)
-        preview.render(self, exported, layer.name, names, threads, self._is_cancelled)
+        preview.render(
+            self,
+            exported,
+            layer.name,
+            pass_names(layer),
+            depsgraph.scene,
+            self.overrides,
+            self._is_cancelled,
+        )
 
     def _remember_failure(self, message: str) -> None:
         """update() can't end a render: render() is called after it and does."""
@@ -251,6 +260,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
                     show_status(self, session.progress)
             if not session.is_stopped:
                 show_status(self, session.progress)
+                self._log_progress(layer.name, session.progress, depsgraph.scene)
                 if denoiser is not None:
                     self._denoise(denoiser, writer, depsgraph.scene)
         writer.finish()
@@ -297,6 +307,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         session = start_session(
             exported,
             self.warnings,
+            self.overrides,
             lambda: basicrt.Session(
                 exported.scene,
                 threads=self._threads(b_scene),
@@ -320,5 +331,17 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
 
     def _threads(self, b_scene: Any) -> int:
         """How many there are to be; 0 is one for each processor."""
-        chosen = self.overrides.threads
-        return int(b_scene.render.threads if chosen is None else chosen)
+        return thread_count(b_scene, self.overrides)
+
+    def _log_progress(self, layer: str, progress: basicrt.Progress, b_scene: Any) -> None:
+        """What a view layer took."""
+        import basicrt
+
+        log.info(
+            'view layer "%s": %.2f s, %.2f M samples/s, %d threads, %s',
+            layer,
+            progress.elapsed_seconds,
+            progress.samples_per_second / 1e6,
+            self._threads(b_scene) or basicrt.processor_count(),
+            basicrt.chosen_kernel(),
+        )

@@ -11,7 +11,10 @@ import bpy
 
 import basicrt
 
+from ..preferences import use_isa
 from ..sync.scene_sync import Export
+from .command_line import Overrides
+from .machine import check_memory, thread_count
 from .result import ResultWriter
 
 # Of each pixel: first what is there at once, then what is there to stay.
@@ -33,10 +36,17 @@ def render(
     exported: Export,
     layer: str,
     names: Mapping[str, str],
-    threads: int,
+    b_scene: bpy.types.Scene,
+    overrides: Overrides,
     is_cancelled: Callable[[], bool],
 ) -> None:
-    """Write the coarse picture and then the fine one, until the user wants another. Raises SceneError."""
+    """Write the coarse picture and then the fine one, until the user wants another.
+
+    Raises SceneError, and ExportError where there is not enough memory for it.
+    """
+    threads = thread_count(b_scene, overrides)
+    use_isa()
+    check_memory(exported.scene.memory(), overrides, is_built=False)
     for samples in SAMPLES:
         if not _render_samples(engine, exported, samples, layer, names, threads, is_cancelled):
             return

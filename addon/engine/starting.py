@@ -3,16 +3,20 @@
 
 from __future__ import annotations
 
+import logging
 import warnings
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ..report import ExportError, Report, show_warnings
+from ..preferences import use_isa
+from ..report import ExportError, Report, log, show_warnings
+from .machine import check_memory, gigabytes, parts_of
 
 if TYPE_CHECKING:
     import basicrt
 
     from ..sync.scene_sync import Export
+    from .command_line import Overrides
 
 
 class CancelledError(Exception):
@@ -31,11 +35,16 @@ def building_watch(engine: Any, is_cancelled: Callable[[], bool]) -> Callable[[f
 
 
 def start_session(
-    exported: Export, report: Report, start: Callable[[], basicrt.Session]
+    exported: Export,
+    report: Report,
+    overrides: Overrides,
+    start: Callable[[], basicrt.Session],
 ) -> basicrt.Session:
     """Start it; what the core says against it is told with the names of things. Raises ExportError."""
     import basicrt
 
+    use_isa()
+    check_memory(exported.scene.memory(), overrides, is_built=False)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", basicrt.SceneWarning)
         try:
@@ -45,4 +54,15 @@ def start_session(
     for warning in caught:
         report.add(exported.in_users_words(str(warning.message)))
     show_warnings(report)
+    tell_memory(session.memory)
+    try:
+        check_memory(session.memory, overrides, is_built=True)
+    except ExportError:
+        session.stop()
+        raise
     return session
+
+
+def tell_memory(memory: basicrt.SceneMemory, level: int = logging.INFO) -> None:
+    """To the log: what a scene takes."""
+    log.log(level, "memory: %s (%s)", gigabytes(memory.total), parts_of(memory))

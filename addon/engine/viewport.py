@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import logging
 import weakref
 from typing import Any
 
@@ -11,10 +12,14 @@ import bpy
 import basicrt
 
 from ..export import studio_light, view
+from ..preferences import use_isa
 from ..properties import settings_of
 from ..report import ExportError, Report, message_of, show_warnings
 from ..sync.instances import Filter
 from ..sync.scene_sync import SceneSync
+from . import command_line
+from .machine import check_memory, thread_count
+from .starting import tell_memory
 from .view_texture import ViewTexture
 
 # How often a picture that is being refined is looked for.
@@ -40,6 +45,7 @@ class Viewport:
         self._is_out_of_date = False  # something changed that was not read yet
         self._is_polling = False
         self._message = ""
+        self._is_measured = False  # the memory of what the session prepared last was looked at
         self._failure = ""  # why there is no picture of what is to be seen now
 
     def close(self) -> None:
@@ -75,8 +81,10 @@ class Viewport:
     def _read_changes(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """From Blender's data to the session's scene, unless that is busy with it."""
         if self._session is None:
+            use_isa()
             b_scene: Any = depsgraph.scene
-            self._session = basicrt.ViewSession(b_scene.render.threads)
+            self._session = basicrt.ViewSession(thread_count(b_scene, command_line.overrides()))
+            self._shown = None
         if self._session.status.is_preparing:
             self._poll_later()
             return
@@ -88,8 +96,20 @@ class Viewport:
         is_lit = not shading.use_scene_world_render
         environment = self._studio_light.environment(shading) if is_lit else None
         self._sync.update(depsgraph, camera, _filter(region), environment)
-        self._session.set_scene(self._sync.exported.scene)
         show_warnings(self._report)
+        self._is_measured = False
+        if self._is_within_memory(self._sync.exported.scene.memory(), is_built=False):
+            self._session.set_scene(self._sync.exported.scene)
+
+    def _is_within_memory(self, memory: basicrt.SceneMemory, *, is_built: bool) -> bool:
+        """Whether the scene may be rendered; else nothing is kept of what shows it."""
+        try:
+            check_memory(memory, command_line.overrides(), is_built=is_built)
+        except ExportError as error:
+            self._failure = message_of(error)
+            self.close()
+            return False
+        return True
 
     def _look(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Tell the session of another camera, size, border, pass or setting."""
@@ -109,7 +129,10 @@ class Viewport:
     def _show_status(self) -> None:
         """The text in the corner of the viewport."""
         engine, session = self._engine(), self._session
-        if engine is None or session is None:
+        if engine is None:
+            return
+        if session is None:
+            engine.update_stats("", self._failure)
             return
         for warning in session.take_warnings():
             self._report.add(self._sync.exported.in_users_words(warning))
@@ -119,11 +142,21 @@ class Viewport:
         except basicrt.SceneError as error:
             self._tell(error)
         else:
+            self._measure(session, status)
             if status.is_preparing:
                 self._message = f"Building trees | {status.prepared_fraction:.0%}"
             elif status.samples > 0 or not status.is_done:
                 self._message = f"Sample {status.samples}/{status.samples_end}"
         engine.update_stats("", self._failure or self._message)
+
+    def _measure(self, session: basicrt.ViewSession, status: basicrt.ViewStatus) -> None:
+        """Once for each time that something was prepared: how much memory it takes."""
+        memory = session.memory
+        if self._is_measured or status.is_preparing or memory is None:
+            return
+        self._is_measured = True
+        tell_memory(memory, logging.DEBUG)
+        self._is_within_memory(memory, is_built=True)
 
     def _poll_later(self) -> None:
         """Have a look for pictures in a moment: Blender asks only when something happens to it."""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from . import cycles_settings, export_scene, select_culprit
+from . import cycles_settings, export_scene, select_culprit, self_test
 
 
 def register() -> None:
@@ -11,10 +11,12 @@ def register() -> None:
     export_scene.register()
     cycles_settings.register()
     select_culprit.register()
+    self_test.register()
 
 
 def unregister() -> None:
     """Take them away."""
+    self_test.unregister()
     select_culprit.unregister()
     cycles_settings.unregister()
     export_scene.unregister()
