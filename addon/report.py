@@ -91,13 +91,17 @@ def message_of(error: BaseException) -> str:
 def caught(on_error: Callable[[str], None]) -> Iterator[None]:
     """Around the body of each of Blender's callbacks: Blender swallows exceptions, so none may leave.
 
-    The traceback is logged and `on_error(message)` called; an interrupt is no fault to trace. (No
-    decorator: Blender counts a callback's arguments and refuses `*args`.)
+    The traceback is logged and `on_error(message)` called; neither an interrupt nor what is wrong with a
+    scene is a fault to trace. (No decorator: Blender counts a callback's arguments and refuses `*args`.)
     """
     try:
         yield
     except KeyboardInterrupt as interrupt:
         on_error(message_of(interrupt))
+    except ExportError as error:
+        log.error("%s", error)
+        log.debug("where that was found", exc_info=error)
+        on_error(message_of(error))
     except Exception as error:
         log.error("%s", error, exc_info=error)
         on_error(message_of(error))

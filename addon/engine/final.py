@@ -338,7 +338,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         import basicrt
 
         log.info(
-            'view layer "%s": %.2f s, %.2f M samples/s, %d threads, %s',
+            'view layer "%s": %.2f s, %.2f M samples/s, threads: %d, %s',
             layer,
             progress.elapsed_seconds,
             progress.samples_per_second / 1e6,

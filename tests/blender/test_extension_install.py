@@ -19,7 +19,11 @@ bpy.ops.extensions.package_install_files(
 )
 assert "bl_ext.user_default.basicrt" in bpy.context.preferences.addons, "not enabled"
 
+chosen = bpy.context.preferences.addons["bl_ext.user_default.basicrt"].preferences
+chosen.threads, chosen.isa, chosen.log_level = 1, "SCALAR", "INFO"
+
 scene = bpy.context.scene
+scene.render.threads_mode = "AUTO"
 scene.render.engine = "BASICRT"
 scene.basicrt.samples = 4
 scene.render.resolution_x, scene.render.resolution_y = 48, 32
@@ -33,6 +37,8 @@ assert len(pixels) == 48 * 32 * 4
 assert max(pixels) > 0.01, "the picture is black"
 import basicrt
 print("rendered with", basicrt.__file__)
+assert basicrt.chosen_kernel() == "scalar", "the preferences don't count"
+assert bpy.ops.basicrt.self_test() == {"FINISHED"}
 bpy.ops.preferences.addon_disable(module="bl_ext.user_default.basicrt")
 assert not hasattr(bpy.types.Scene, "basicrt"), "something of the add-on stayed behind"
 print("done")
@@ -67,5 +73,6 @@ def test_zip_installs_into_a_clean_profile_and_renders(tmp_path: Path) -> None:
         check=False,
     )
     assert "done" in result.stdout, result.stdout + result.stderr
+    assert "threads: 1, scalar" in result.stderr, "the preferences don't count"
     assert f"rendered with {profile}" in result.stdout, "another basicrt than the zip's was used"
     assert result.returncode == 0, f"leaving Blender failed: {result.stdout + result.stderr}"
