@@ -18,6 +18,7 @@ from ..export import (
     hair,
     light,
     light_groups,
+    light_links,
     material,
     mesh,
     object_properties,
@@ -114,6 +115,7 @@ class Instances:
         self._asked: dict[tuple[int, int], frozenset[MeshData]] = {}
         self._asked_of_objects: dict[tuple[int, int], frozenset[ObjectData]] = {}
         self._visibility: dict[tuple[int, int], int] = {}
+        self._links = light_links.LightLinks()
         self._is_forgotten = False
 
     def begin(self, depsgraph: bpy.types.Depsgraph, changes: Changes) -> None:
@@ -124,6 +126,8 @@ class Instances:
         self._b_scene: Any = depsgraph.scene_eval
         self._is_render = depsgraph.mode == "RENDER"
         self._groups = light_groups.numbers(b_original_layer, self._report)
+        if changes.is_selection:  # Blender says so of each change of a link
+            self._links = light_links.read(self._b_scene, self._report)
         self._slots.clear()
         self._asked.clear()
         self._asked_of_objects.clear()
@@ -316,6 +320,7 @@ class Instances:
             return None
         converted, lamp_material = made
         converted.light_group = light_groups.number_of(b_object, self._groups)
+        self._links.apply(converted, b_object)
         if lamp_material is not None:
             converted.material = self._put_lamp_material(key, b_object, lamp_material)
         return converted
@@ -371,6 +376,8 @@ class Instances:
             pass_index=b_object.pass_index,
             asset_name=self._asset_name(b_instance, b_object),
         )
+        b_parent = b_instance.parent if b_instance.is_instance else None
+        self._links.apply(instance, b_object, b_parent)
         asked = self._asked_of_objects[uid(b_object), mesh.key(b_mesh)]
         if asked:
             instance.properties = object_properties.convert(b_instance, asked, self._report)

@@ -3,7 +3,14 @@
 
 from __future__ import annotations
 
-from . import aov_panel, bake_panels, core_panels, light_group_panels, panels
+from . import (
+    aov_panel,
+    bake_panels,
+    core_panels,
+    light_group_panels,
+    light_linking_panels,
+    panels,
+)
 
 
 def register() -> None:
@@ -12,12 +19,14 @@ def register() -> None:
     bake_panels.register()
     aov_panel.register()
     light_group_panels.register()
+    light_linking_panels.register()
     core_panels.register()
 
 
 def unregister() -> None:
     """Hide them again."""
     core_panels.unregister()
+    light_linking_panels.unregister()
     light_group_panels.unregister()
     aov_panel.unregister()
     bake_panels.unregister()

@@ -148,7 +148,15 @@ void bind_instance(py::module_& m) {
                            "the light of its materials is in the pass Light Group of this number too; 0: in none",
                            within(0, light_groups))),
       make_attribute(
-          field("asset_name", &Instance::asset_name, "what it is part of, for the passes CryptoAsset; none: `name`"))};
+          field("asset_name", &Instance::asset_name, "what it is part of, for the passes CryptoAsset; none: `name`")),
+      make_attribute(field("receiver_set", &Instance::receiver_set, "by which lights know whether they light it",
+                           within(0, LinkSets::count - 1))),
+      make_attribute(field("blocker_set", &Instance::blocker_set, "by which lights know whether it dims them",
+                           within(0, LinkSets::count - 1))),
+      make_attribute(field("lit_sets", &Instance::lit_sets,
+                           "the sets of receivers that its materials' light lights, 0 to 63; None: all")),
+      make_attribute(field("blocker_sets", &Instance::blocker_sets,
+                           "the sets of blockers that dim its materials' light, 0 to 63; None: all"))};
   bind_fields<Instance>(m, "Instance", "A shape placed in the world.", attributes);
 }
 

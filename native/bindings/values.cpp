@@ -9,6 +9,7 @@
 #include "arrays.h"
 #include "base/error.h"
 #include "base/suggest.h"
+#include "base/validate_fields.h"
 
 namespace basicrt::bindings {
 namespace py = pybind11;
@@ -121,6 +122,24 @@ py::object PythonValue<Transform>::write(const Transform& value) {
     m(3, column) = column == 3 ? 1.0f : 0.0f;
   }
   return matrix;
+}
+
+LinkSets PythonValue<LinkSets>::read(py::handle value, const std::string& item) {
+  if (value.is_none()) return {};
+  LinkSets sets = LinkSets::none();
+  for (const int set : PythonValue<std::vector<int>>::read(value, item)) {
+    validate_field(set, within(0, LinkSets::count - 1), item, "");
+    sets.add(set);
+  }
+  return sets;
+}
+
+py::object PythonValue<LinkSets>::write(LinkSets value) {
+  if (value.is_all()) return py::none();
+  py::list sets;
+  for (int set = 0; set < LinkSets::count; ++set)
+    if (value.has(set)) sets.append(set);
+  return sets;
 }
 
 ColorInput PythonValue<ColorInput>::read(py::handle value, const std::string& item) {

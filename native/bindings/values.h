@@ -15,6 +15,7 @@
 #include "base/describe.h"
 #include "base/id.h"
 #include "errors.h"
+#include "light/link_sets.h"
 #include "math/transform.h"
 #include "math/vec.h"
 #include "shading/material.h"
@@ -127,6 +128,15 @@ struct PythonValue<Id<T>> {
     return Id<T>{PythonValue<NodeIndex>::read(value, item)};
   }
   static pybind11::object write(Id<T> value) { return PythonValue<NodeIndex>::write(value.index); }
+};
+
+// Their numbers, or None for all.
+template <>
+struct PythonValue<LinkSets> {
+  static constexpr const char* accepts = "collections.abc.Iterable[int] | None";
+  static constexpr const char* returns = "list[int] | None";
+  static LinkSets read(pybind11::handle value, const std::string& item);
+  static pybind11::object write(LinkSets value);
 };
 
 template <class T>

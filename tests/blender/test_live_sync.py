@@ -36,6 +36,25 @@ CUBE = (
 )
 
 
+def picture_in(session: basicrt.ViewSession, scene: basicrt.Scene) -> np.ndarray:
+    """What it comes to show of a scene, as the scene's camera sees it."""
+    session.set_scene(scene)
+    session.set_view(scene.camera, scene.settings)
+    while not session.status.is_done:
+        time.sleep(0.001)
+    newest = session.take_picture()
+    assert newest is not None
+    return newest.pixels
+
+
+def fresh_picture() -> np.ndarray:
+    """The scene in a session that has never seen another."""
+    session = basicrt.ViewSession(1)
+    picture = picture_in(session, export())
+    session.close()
+    return picture
+
+
 class LiveScene:
     """A sync that hears of every update of the scene's dependency graph, as a viewport's does."""
 
@@ -54,14 +73,7 @@ class LiveScene:
 
     def picture(self) -> np.ndarray:
         """What a viewport that looks through the scene's camera comes to show after an update."""
-        scene = self.update()
-        self.session.set_scene(scene)
-        self.session.set_view(scene.camera, scene.settings)
-        while not self.session.status.is_done:
-            time.sleep(0.001)
-        newest = self.session.take_picture()
-        assert newest is not None
-        return newest.pixels
+        return picture_in(self.session, self.update())
 
     def note(self, _scene: Any, depsgraph: Any) -> None:
         """Blender's handler."""
@@ -88,7 +100,7 @@ def live() -> Iterator[LiveScene]:
 
 def expect_up_to_date(live: LiveScene) -> None:
     bpy.context.view_layer.update()
-    np.testing.assert_array_equal(live.picture(), basicrt.render(export())["Combined"])
+    np.testing.assert_array_equal(live.picture(), fresh_picture())
 
 
 def objects(kind: str = "MESH") -> list[Any]:
@@ -205,6 +217,21 @@ def edit_lamp_nodes(chance: random.Random) -> None:
         light.node_tree.links.new(noise.outputs["Color"], emission.inputs["Color"])
 
 
+def link_a_lamp(chance: random.Random) -> None:
+    """To some object or to all but that, or no longer; its light or its shadows."""
+    links = chance.choice(objects("LIGHT")).light_linking
+    name = chance.choice(("receiver_collection", "blocker_collection"))
+    collection = getattr(links, name)
+    if collection is None:
+        made = bpy.data.collections.new("Links")
+        made.objects.link(chance.choice(objects()))
+        setattr(links, name, made)
+    elif collection.collection_objects and chance.random() < 0.5:
+        collection.collection_objects[0].light_linking.link_state = "EXCLUDE"
+    else:
+        setattr(links, name, None)
+
+
 def edit_mesh(chance: random.Random) -> None:
     mesh = chance.choice(objects()).data
     mesh.vertices[0].co.z += chance.uniform(-0.3, 0.3)
@@ -287,6 +314,7 @@ EDITS: tuple[Callable[[random.Random], None], ...] = (
     move,
     move_lamp,
     edit_lamp_nodes,
+    link_a_lamp,
     edit_mesh,
     relink_material,
     edit_material,
@@ -311,5 +339,5 @@ def test_random_edits_give_the_picture_of_a_fresh_export(live: LiveScene, seed: 
         for edit in edits:
             edit(chance)
         bpy.context.view_layer.update()
-        same = np.array_equal(live.picture(), basicrt.render(export())["Combined"])
+        same = np.array_equal(live.picture(), fresh_picture())
         assert same, f"seed {seed}, step {step}: {[edit.__name__ for edit in edits]}"

@@ -62,7 +62,7 @@ def test_core_panels_are_shown() -> None:
 
 def test_own_panels_are_shown_for_no_other_engine() -> None:
     own = [p for p in all_panels() if p.__name__.startswith("BASICRT_")]
-    assert len(own) == 24
+    assert len(own) == 26
     assert all({"BASICRT"} == p.COMPAT_ENGINES for p in own)
 
 

@@ -4542,6 +4542,8 @@ class PointLight:
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
     material: whose emission multiplies the lamp's light, place by place; none: by 1
     object_transform: local to world, of what the material takes for its object
+    lit_sets: the sets of receivers that it lights, 0 to 63; not given: all
+    blocker_sets: the sets of blockers that dim its light, 0 to 63; not given: all
     """
     def __init__(
         self,
@@ -4559,8 +4561,17 @@ class PointLight:
         light_group: int = 0,
         material: int | None = None,
         object_transform: numpy.typing.ArrayLike = ...,
+        lit_sets: collections.abc.Iterable[int] | None = None,
+        blocker_sets: collections.abc.Iterable[int] | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def blocker_sets(self) -> list[int] | None:
+        """
+        the sets of blockers that dim its light, 0 to 63; not given: all
+        """
+    @blocker_sets.setter
+    def blocker_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
     @property
     def camera_visible(self) -> bool:
         """
@@ -4605,6 +4616,13 @@ class PointLight:
         """
     @light_group.setter
     def light_group(self, value: int) -> None: ...
+    @property
+    def lit_sets(self) -> list[int] | None:
+        """
+        the sets of receivers that it lights, 0 to 63; not given: all
+        """
+    @lit_sets.setter
+    def lit_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
     @property
     def material(self) -> int | None:
         """
@@ -4682,6 +4700,8 @@ class SpotLight:
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
     material: whose emission multiplies the lamp's light, place by place; none: by 1
     object_transform: local to world, of what the material takes for its object
+    lit_sets: the sets of receivers that it lights, 0 to 63; not given: all
+    blocker_sets: the sets of blockers that dim its light, 0 to 63; not given: all
     """
     def __init__(
         self,
@@ -4701,6 +4721,8 @@ class SpotLight:
         light_group: int = 0,
         material: int | None = None,
         object_transform: numpy.typing.ArrayLike = ...,
+        lit_sets: collections.abc.Iterable[int] | None = None,
+        blocker_sets: collections.abc.Iterable[int] | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4717,6 +4739,13 @@ class SpotLight:
         """
     @blend.setter
     def blend(self, value: float) -> None: ...
+    @property
+    def blocker_sets(self) -> list[int] | None:
+        """
+        the sets of blockers that dim its light, 0 to 63; not given: all
+        """
+    @blocker_sets.setter
+    def blocker_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
     @property
     def camera_visible(self) -> bool:
         """
@@ -4761,6 +4790,13 @@ class SpotLight:
         """
     @light_group.setter
     def light_group(self, value: int) -> None: ...
+    @property
+    def lit_sets(self) -> list[int] | None:
+        """
+        the sets of receivers that it lights, 0 to 63; not given: all
+        """
+    @lit_sets.setter
+    def lit_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
     @property
     def material(self) -> int | None:
         """
@@ -4835,6 +4871,8 @@ class SunLight:
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
     material: whose emission multiplies the lamp's light, place by place; none: by 1
     object_transform: local to world, of what the material takes for its object
+    lit_sets: the sets of receivers that it lights, 0 to 63; not given: all
+    blocker_sets: the sets of blockers that dim its light, 0 to 63; not given: all
     """
     def __init__(
         self,
@@ -4851,6 +4889,8 @@ class SunLight:
         light_group: int = 0,
         material: int | None = None,
         object_transform: numpy.typing.ArrayLike = ...,
+        lit_sets: collections.abc.Iterable[int] | None = None,
+        blocker_sets: collections.abc.Iterable[int] | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -4860,6 +4900,13 @@ class SunLight:
         """
     @angle.setter
     def angle(self, value: float) -> None: ...
+    @property
+    def blocker_sets(self) -> list[int] | None:
+        """
+        the sets of blockers that dim its light, 0 to 63; not given: all
+        """
+    @blocker_sets.setter
+    def blocker_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
     @property
     def camera_visible(self) -> bool:
         """
@@ -4914,6 +4961,13 @@ class SunLight:
     @light_group.setter
     def light_group(self, value: int) -> None: ...
     @property
+    def lit_sets(self) -> list[int] | None:
+        """
+        the sets of receivers that it lights, 0 to 63; not given: all
+        """
+    @lit_sets.setter
+    def lit_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
+    @property
     def material(self) -> int | None:
         """
         whose emission multiplies the lamp's light, place by place; none: by 1
@@ -4967,6 +5021,8 @@ class AreaLight:
     light_group: its light is in the pass Light Group of this number too; 0: in none; in [0, 16]
     material: whose emission multiplies the lamp's light, place by place; none: by 1
     object_transform: local to world, of what the material takes for its object
+    lit_sets: the sets of receivers that it lights, 0 to 63; not given: all
+    blocker_sets: the sets of blockers that dim its light, 0 to 63; not given: all
     """
     def __init__(
         self,
@@ -4984,8 +5040,17 @@ class AreaLight:
         light_group: int = 0,
         material: int | None = None,
         object_transform: numpy.typing.ArrayLike = ...,
+        lit_sets: collections.abc.Iterable[int] | None = None,
+        blocker_sets: collections.abc.Iterable[int] | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def blocker_sets(self) -> list[int] | None:
+        """
+        the sets of blockers that dim its light, 0 to 63; not given: all
+        """
+    @blocker_sets.setter
+    def blocker_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
     @property
     def camera_visible(self) -> bool:
         """
@@ -5028,6 +5093,13 @@ class AreaLight:
         """
     @light_group.setter
     def light_group(self, value: int) -> None: ...
+    @property
+    def lit_sets(self) -> list[int] | None:
+        """
+        the sets of receivers that it lights, 0 to 63; not given: all
+        """
+    @lit_sets.setter
+    def lit_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
     @property
     def material(self) -> int | None:
         """
@@ -6939,6 +7011,10 @@ class Instance:
     pass_index: for the pass Object Index and materials that ask
     light_group: the light of its materials is in the pass Light Group of this number too; 0: in none; in [0, 16]
     asset_name: what it is part of, for the passes CryptoAsset; none: `name`
+    receiver_set: by which lights know whether they light it; in [0, 63]
+    blocker_set: by which lights know whether it dims them; in [0, 63]
+    lit_sets: the sets of receivers that its materials' light lights, 0 to 63; None: all
+    blocker_sets: the sets of blockers that dim its materials' light, 0 to 63; None: all
     """
     def __init__(
         self,
@@ -6959,6 +7035,10 @@ class Instance:
         pass_index: int = 0,
         light_group: int = 0,
         asset_name: str = "",
+        receiver_set: int = 0,
+        blocker_set: int = 0,
+        lit_sets: collections.abc.Iterable[int] | None = None,
+        blocker_sets: collections.abc.Iterable[int] | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -6975,6 +7055,20 @@ class Instance:
         """
     @asset_name.setter
     def asset_name(self, value: str) -> None: ...
+    @property
+    def blocker_set(self) -> int:
+        """
+        by which lights know whether it dims them; in [0, 63]
+        """
+    @blocker_set.setter
+    def blocker_set(self, value: int) -> None: ...
+    @property
+    def blocker_sets(self) -> list[int] | None:
+        """
+        the sets of blockers that dim its materials' light, 0 to 63; None: all
+        """
+    @blocker_sets.setter
+    def blocker_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
     @property
     def color(self) -> tuple[float, float, float]:
         """
@@ -6996,6 +7090,13 @@ class Instance:
         """
     @light_group.setter
     def light_group(self, value: int) -> None: ...
+    @property
+    def lit_sets(self) -> list[int] | None:
+        """
+        the sets of receivers that its materials' light lights, 0 to 63; None: all
+        """
+    @lit_sets.setter
+    def lit_sets(self, value: collections.abc.Iterable[int] | None) -> None: ...
     @property
     def materials(self) -> list[int | None]:
         """
@@ -7042,6 +7143,13 @@ class Instance:
         """
     @random.setter
     def random(self, value: float) -> None: ...
+    @property
+    def receiver_set(self) -> int:
+        """
+        by which lights know whether they light it; in [0, 63]
+        """
+    @receiver_set.setter
+    def receiver_set(self, value: int) -> None: ...
     @property
     def shadow_catcher(self) -> bool:
         """

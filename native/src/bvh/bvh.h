@@ -22,7 +22,9 @@ struct BvhConfig {
   BvhBuilder builder = BvhBuilder::binned_sah;
   int max_depth = 64;  // median: a node this deep becomes a leaf
   int leaf_size = 4;   // triangles in a block: fewer take more memory and fewer tests
-  int threads = 0;     // 0: one for each processor; the tree is the same for any number
+  // Small meshes share a tree, where a ray needn't enter each; none of them can be moved alone.
+  bool merges_small_meshes = true;
+  int threads = 0;  // 0: one for each processor; the tree is the same for any number
   WorkProgress* progress =
       nullptr;  // hears of the work in units of build_work(), and can cancel it: Cancelled is thrown
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <type_traits>
 
@@ -71,7 +72,7 @@ KernelInstance kernel_instance(const MeshTree* mesh, const TracedInstance& insta
   return result;
 }
 
-// Entering an instance costs as much as several nodes: meshes of fewer triangles, used once and seen by every ray, share a tree instead.
+// Entering an instance costs as much as several nodes: meshes of fewer triangles, used once and seen by the same rays, share a tree instead.
 constexpr std::size_t smallest_own_tree = 256;
 
 // The mesh's triangles in world space, by their numbers.
@@ -205,14 +206,24 @@ bool Tracer::move_instances(std::span<const Move> moves, const BvhConfig& config
 void Tracer::merge_small_meshes(std::span<const Bounds3f> boxes, const BvhConfig& config) {
   std::vector<std::uint32_t> use_counts(trees_.size());
   for (const TracedInstance& instance : instances_) ++use_counts[instance.shape];
-  Mesh merged;
-  for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+  const auto may_be_merged = [&](std::uint32_t i) {
     const TracedInstance& instance = instances_[i];
     const auto* mesh = std::get_if<MeshTree>(&trees_[instance.shape].geometry);
     const bool is_small = mesh != nullptr && 4 * mesh->blocks.size() < smallest_own_tree;
-    if (!is_small || use_counts[instance.shape] > 1 || instance.visibility != ray_all || !instance.motion.empty() ||
-        kernel_instances_[i].root == no_reference || !is_usable_for_kernels(boxes[i]))
-      continue;
+    return config.merges_small_meshes && is_small && use_counts[instance.shape] == 1 && instance.motion.empty() &&
+           kernel_instances_[i].root != no_reference && is_usable_for_kernels(boxes[i]);
+  };
+  std::map<std::uint32_t, std::size_t> seen_alike;  // by visibility
+  for (std::uint32_t i = 0; i < instances_.size(); ++i)
+    if (may_be_merged(i)) ++seen_alike[instances_[i].visibility];
+  const auto by_count = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const std::uint32_t visibility = seen_alike.empty() ? 0 : std::ranges::max_element(seen_alike, by_count)->first;
+
+  Mesh merged;
+  for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+    const TracedInstance& instance = instances_[i];
+    if (!may_be_merged(i) || instance.visibility != visibility) continue;
+    const auto* mesh = std::get_if<MeshTree>(&trees_[instance.shape].geometry);
     kernel_instances_[i].first_merged = static_cast<std::uint32_t>(merged.triangles.size());
     for (const auto& corners : world_triangles(*mesh, instance.object_to_world)) {
       const auto first = static_cast<std::uint32_t>(merged.positions.size());
@@ -225,7 +236,7 @@ void Tracer::merge_small_meshes(std::span<const Bounds3f> boxes, const BvhConfig
   BvhConfig small_blocks = config;
   small_blocks.leaf_size = 2;
   merged_ = build_mesh_tree(merged, small_blocks);
-  KernelInstance all = kernel_instance(&merged_, TracedInstance{});
+  KernelInstance all = kernel_instance(&merged_, TracedInstance{.visibility = visibility});
   all.owners = merged_owners_.data();
   kernel_instances_.push_back(all);
 }

@@ -34,6 +34,8 @@ class MediaStack {
     count_ = kept;
   }
   [[nodiscard]] bool is_empty() const { return count_ == 0; }
+  // What was entered last of what it is in; `world` where there is none.
+  [[nodiscard]] std::uint32_t innermost() const { return count_ == 0 ? world : entries_[count_ - 1].instance; }
 
   [[nodiscard]] MediaSum sum() const {
     MediaSum sum;

@@ -60,6 +60,8 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
   shadow_rays_.clear();
   connections_.clear();
   shadow_media_.clear();
+  linked_paths_.clear();
+  linked_rays_.clear();
   recorder_.clear_filings();
   std::size_t kept = 0;
   points_.begin();
@@ -214,18 +216,25 @@ void PathIntegrator::add_connection(const Connection& connection, PixelSample& s
 // Lamps do not block rays: each one between the ray's ends adds its light. pass_media() has seen to those in volumes.
 void PathIntegrator::gather_lamps(const Path& path, const Ray& ray, PixelSample& sample) {
   if (is_in_media(path)) return;
-  scene_.lights.for_each_lamp_hit(ray, path.lit_side,
+  scene_.lights.for_each_lamp_hit(ray, path.start(ray),
                                   [&](const LightHit& hit) { gather_lamp(path, ray, hit, sample); });
 }
 
 // Those are behind everything, where a camera's clipping doesn't reach.
 void PathIntegrator::gather_distant_lamps(const Path& path, const Ray& ray, PixelSample& sample) {
-  scene_.lights.for_each_distant_hit(ray, path.lit_side,
+  scene_.lights.for_each_distant_hit(ray, path.start(ray),
                                      [&](const LightHit& hit) { gather_lamp(path, ray, hit, sample); });
 }
 
-// The counts are those of a light sample taken where the ray began; the camera's rays count as if they had been scattered.
+// look_for_linked_lights() has seen to those that only some objects dim, but where the camera itself sees them.
 void PathIntegrator::gather_lamp(const Path& path, const Ray& ray, const LightHit& hit, PixelSample& sample) {
+  if (hit.shadow_kind == ray_shadow || path.is_camera_ray)
+    add_light(path, path.throughput * radiance_of_lamp(path, ray, hit), hit.light_group, sample);
+}
+
+// Of which light samples find the rest. The counts are those of a light sample taken where the ray began; the camera's
+// rays count as if they had been scattered.
+Color PathIntegrator::radiance_of_lamp(const Path& path, const Ray& ray, const LightHit& hit) const {
   const float weight = path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, hit.pdf);
   Color radiance = hit.radiance;
   if (hit.varying_lamp != Hit::none) {
@@ -233,7 +242,7 @@ void PathIntegrator::gather_lamp(const Path& path, const Ray& ray, const LightHi
     seen.t_max = hit.t;
     radiance = with_emission(radiance, hit.varying_lamp, seen, path, std::max(path.bounces.total, 1));
   }
-  add_light(path, path.throughput * radiance * weight, hit.light_group, sample);
+  return radiance * weight;
 }
 
 Color PathIntegrator::with_emission(Color radiance, std::uint32_t lamp, const Ray& ray, const Path& path,
@@ -259,7 +268,9 @@ void PathIntegrator::gather_environment(const Path& path, const Ray& ray, PixelS
   if (is_black(radiance)) return;
   if (path.is_specular) recorder_.record_glow(path.sample, path.throughput * radiance);
   const float weight =
-      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_environment(ray.direction));
+      path.is_specular
+          ? 1
+          : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_environment(ray.direction, path.receiver_set));
   if (is_hole)  // the pass Environment has what the picture and its groups have not
     recorder_.add_found_light(path.sample, path.bounces.total, path.throughput * radiance * weight, 0, true);
   else
@@ -269,10 +280,12 @@ void PathIntegrator::gather_environment(const Path& path, const Ray& ray, PixelS
 void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
                                      PixelSample& sample) {
   if (is_black(emission)) return;
+  const PreparedScene::PreparedInstance& instance = scene_.instances[point.instance];
+  if (!instance.lit_sets.has(path.receiver_set)) return;
+  if (instance.shadow_kind != ray_shadow && !path.is_camera_ray) return;  // look_for_linked_emitters() has seen to it
   const float weight =
-      path.is_specular ? 1
-                       : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, {ray.origin, path.lit_side}));
-  add_light(path, path.throughput * emission * weight, scene_.instances[point.instance].light_group, sample);
+      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, path.start(ray)));
+  add_light(path, path.throughput * emission * weight, instance.light_group, sample);
 }
 
 // Holdouts are holes, whether or not the film is transparent elsewhere.
@@ -291,8 +304,9 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
                                    PixelSample& sample) {
   if (bsdf.has_only_deltas() || scene_.lights.is_empty()) return;
   const auto [choice, u] = path.sampler.next_choice();
+  const int receiver_set = scene_.instances[point.instance].receiver_set;
   std::optional<LightSample> light =
-      scene_.lights.sample({point.position, bsdf.lit_side(-ray.direction)}, choice, u, ray.time);
+      scene_.lights.sample({point.position, bsdf.lit_side(-ray.direction), receiver_set}, choice, u, ray.time);
   if (!light || path.bounces.total > light->max_bounces) return;
   look_up_emission(path, point.position, ray.time, *light);
   BsdfValue reflected = eval_towards(*light, point, -ray.direction, bsdf);
@@ -309,7 +323,7 @@ void PathIntegrator::sample_lights(Path& path, const Ray& ray, const SurfacePoin
   const Connection connection{path.sample, radiance, path.bounces, most, path.destination, filing};
   if (!light->casts_shadows) return add_connection(connection, sample);
   append_result(shadow_rays_, [&] { return spawn_shadow_ray(scene_, point, light->wi, light->distance, ray.time); });
-  if (path.destination == Destination::catcher_unlit) shadow_rays_.back().kinds = ray_catcher;
+  shadow_rays_.back().kinds = path.destination == Destination::catcher_unlit ? ray_catcher : light->shadow_kind;
   if (has_volumes_) {
     shadow_media_.push_back(media_[path.media]);
     if (is_crossed(point, -ray.direction, light->wi)) cross_surface(shadow_media_.back(), point);
@@ -432,6 +446,7 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
     return true;
   }
   path.lit_side = bsdf.lit_side(-ray.direction);
+  path.receiver_set = scene_.instances[point.instance].receiver_set;
   const bool is_unlit = path.destination == Destination::catcher_unlit;
   ray = spawn_ray(point, scattered->wi, is_unlit ? std::uint32_t{ray_catcher} : ray_kind(scattered->kind), ray.time);
   path.bsdf_pdf = scattered->pdf;
@@ -443,7 +458,9 @@ bool PathIntegrator::scatter(Path& path, Ray& ray, const Hit& hit, const Surface
                     scene_.settings.is_glass_transparent &&
                     bsdf.transmission_alpha() <= scene_.settings.transparent_glass_roughness;
   if (!scattered->is_delta) path.least_pdf = std::min(path.least_pdf, scattered->pdf);
-  return survives_roulette(path);
+  if (!survives_roulette(path)) return false;
+  if (has_links()) look_for_linked_lights(path, ray);
+  return true;
 }
 
 // Blender counts one scattering more than its limits say, and after the last one still gathers what the next surface
@@ -493,6 +510,7 @@ bool PathIntegrator::survives_light_roulette(Path& path, Color& radiance) const 
 }
 
 void PathIntegrator::connect(std::span<PixelSample> samples) {
+  if (scene_.has_linked_emitters) look_for_linked_emitters();
   if (has_volumes_) return connect_through_media(samples);
   if (scene_.has_transparency) return connect_through_transparency(samples);
   for_each_unoccluded(scene_.tracer, shadow_rays_, connections_, occluded_,

@@ -35,9 +35,10 @@ class PathIntegrator final : public Integrator {
     Sampler sampler;
     Color throughput{1.0f};
     Bounces bounces = {};
-    Vec3f lit_side = {};         // of the last scattering, as light was chosen for it: see LitPoint
-    float length = 0;            // of all rays before this one, metres
-    float bsdf_pdf = 0;          // of the last scattering's direction, over solid angle
+    Vec3f lit_side = {};                    // of the last scattering, as light was chosen for it: see LitPoint
+    int receiver_set = LinkSets::unlinked;  // of what scattered it last: only what lights that counts
+    float length = 0;                       // of all rays before this one, metres
+    float bsdf_pdf = 0;                     // of the last scattering's direction, over solid angle
     bool is_specular = true;     // no light sample could have found this ray (a camera ray, or after a delta lobe)
     bool is_last = false;        // only what the next surface emits still counts, also behind transparent ones
     bool ends_at_panes = false;  // at transparent surfaces, too, if it is the last
@@ -46,6 +47,9 @@ class PathIntegrator final : public Integrator {
     Destination destination = Destination::picture;
     bool shows_film = true;      // holes that it meets are holes in the picture
     float least_pdf = infinity;  // of all scatterings' densities
+
+    // Where its ray began, as light was chosen there.
+    [[nodiscard]] LitPoint start(const Ray& ray) const { return {ray.origin, lit_side, receiver_set}; }
   };
   // A path beneath a surface.
   struct WalkingPath {
@@ -83,6 +87,13 @@ class PathIntegrator final : public Integrator {
                        PixelSample& sample);
   [[nodiscard]] bool is_filed(const Path& path) const;
   void add_connection(const Connection& connection, PixelSample& sample);
+  // Light that a path runs into, if only what dims it were in the way: path_linked.cpp.
+  [[nodiscard]] bool has_links() const { return !scene_.shadow_links.empty(); }
+  void look_for_linked_lights(const Path& path, const Ray& ray);
+  void look_for_linked_emitters();
+  void meet_linked_emitter(const Path& path, const Ray& ray, const SurfacePoint& point);
+  void add_linked_connection(const Path& path, const Ray& ray, float distance, Color radiance, int light_group,
+                             std::uint32_t shadow_kind);
   void record_surface(const Path& path, const Ray& ray, const SurfacePoint& point, const SurfaceShading& shading);
   // For baking and the pass Ambient Occlusion: path_surface.cpp.
   void keep_baked_parts(const Path& path, const Ray& ray, SurfaceShading& shading, PixelSample& sample) const;
@@ -95,6 +106,7 @@ class PathIntegrator final : public Integrator {
   // Looks up what varies on the surface that a light sample is of.
   void look_up_emission(const Path& path, Vec3f position, float time, LightSample& light) const;
   // The radiance times what the lamp's material emits; `depth` counts scatterings.
+  [[nodiscard]] Color radiance_of_lamp(const Path& path, const Ray& ray, const LightHit& hit) const;
   [[nodiscard]] Color with_emission(Color radiance, std::uint32_t lamp, const Ray& ray, const Path& path,
                                     int depth) const;
   [[nodiscard]] float terminator_share(const SurfacePoint& point, Vec3f wi) const;
@@ -114,6 +126,7 @@ class PathIntegrator final : public Integrator {
   // Volumes: path_volume.cpp. Only called where the scene has some.
   enum class Passage : std::uint8_t { passed, scattered, ended };
   void find_camera_media();
+  [[nodiscard]] int receiver_set_in_media(const Path& path) const;
   [[nodiscard]] bool is_in_media(const Path& path) const { return has_volumes_ && !media_[path.media].is_empty(); }
   [[nodiscard]] Passage pass_media(Path& path, Ray& ray, const Hit& hit, const SurfacePoint& point,
                                    PixelSample& sample);
@@ -133,6 +146,8 @@ class PathIntegrator final : public Integrator {
   std::vector<Ray> rays_;           // the next one of each path
   std::vector<Path> caught_paths_;  // those that leave shadow catchers
   std::vector<Ray> caught_rays_;
+  std::vector<Path> linked_paths_;  // that may have run into linked emitters
+  std::vector<Ray> linked_rays_;
   std::vector<SubsurfaceWalk> walks_;
   std::vector<WalkingPath> walking_paths_;  // of the walks
   SubsurfaceWalks walkers_;

@@ -195,7 +195,9 @@ PathIntegrator::Passage PathIntegrator::pass_media(Path& path, Ray& ray, const H
   if (path.is_camera_ray && hit.is_hit() && !sample.has_hit && !scene_.material_of(point).is_boundary)
     note_first_hit(path.sample, point, sample);
   gather_lamps_in_media(path, segment, media.extinction, sample);
-  if (!is_black(media.emission))
+  const std::uint32_t innermost = media_[path.media].innermost();
+  const bool shines = innermost == MediaStack::world || scene_.instances[innermost].lit_sets.has(path.receiver_set);
+  if (!is_black(media.emission) && shines)
     add_light(path, path.throughput * media.emission * integrated_transmittance(media.extinction, length), 0, sample);
 
   const bool scatters = !path.is_last && !is_black(media.scattering);
@@ -217,7 +219,7 @@ PathIntegrator::Passage PathIntegrator::pass_media(Path& path, Ray& ray, const H
 }
 
 void PathIntegrator::gather_lamps_in_media(const Path& path, const Ray& ray, Color extinction, PixelSample& sample) {
-  scene_.lights.for_each_lamp_hit(ray, path.lit_side, [&](LightHit hit) {
+  scene_.lights.for_each_lamp_hit(ray, path.start(ray), [&](LightHit hit) {
     hit.radiance *= transmittance(extinction, hit.t - ray.t_min);
     gather_lamp(path, ray, hit, sample);
   });
@@ -234,7 +236,8 @@ void PathIntegrator::sample_lights_in_media(Path& path, const Ray& ray, const Me
   // The light is chosen before the place, which is then sought where that light is: near a lamp light grows beyond bounds,
   // and no other way of finding places there keeps the noise within any.
   const Vec2f first = path.sampler.next_2d();
-  const Vec3f guess = ray.at(ray.t_min + collisions.sample(first.x, first.y));
+  const int receiver_set = receiver_set_in_media(path);
+  const LitPoint guess(ray.at(ray.t_min + collisions.sample(first.x, first.y)), Vec3f(0.0f), receiver_set);
   const std::optional<LightSet::Choice> chosen = scene_.lights.choose(guess, path.sampler.next_1d());
   if (!chosen) return;
   const auto [distance, place_pdf] = pick_place(scene_, path.sampler, ray, *chosen, collisions, length);
@@ -244,7 +247,7 @@ void PathIntegrator::sample_lights_in_media(Path& path, const Ray& ray, const Me
   look_up_emission(path, position, ray.time, *light);
   const BsdfValue phase = PhaseMixture(media_[path.media], ray.direction).eval(light->wi);
   // Scattered rays that run into the light ask how likely a sample from that place alone is: so does this.
-  const float pdf_there = light->pdf * scene_.lights.probability(*chosen, position);
+  const float pdf_there = light->pdf * scene_.lights.probability(*chosen, {position, Vec3f(0.0f), receiver_set});
   const float weight = light->is_delta ? 1 : power_heuristic(pdf_there, phase.pdf);
   Color radiance = path.throughput * transmittance(media.extinction, distance) * phase.value * light->radiance *
                    (weight / (light->pdf * chosen->probability * place_pdf));
@@ -258,7 +261,7 @@ void PathIntegrator::sample_lights_in_media(Path& path, const Ray& ray, const Me
   if (!light->casts_shadows) return add_connection(connection, sample);
   const bool is_unlit = path.destination == Destination::catcher_unlit;
   shadow_rays_.push_back(
-      spawn_volume_ray(position, light->wi, is_unlit ? std::uint32_t{ray_catcher} : ray_shadow, ray.time));
+      spawn_volume_ray(position, light->wi, is_unlit ? std::uint32_t{ray_catcher} : light->shadow_kind, ray.time));
   shadow_rays_.back().t_max = light->distance * shadow_ray_share;
   shadow_media_.push_back(media_[path.media]);
   connections_.push_back(connection);
@@ -279,11 +282,20 @@ bool PathIntegrator::scatter_in_media(Path& path, Ray& ray, float distance) {
   ray = spawn_volume_ray(ray.at(ray.t_min + distance), wi,
                          is_unlit ? std::uint32_t{ray_catcher} : ray_kind(ScatterKind::volume), ray.time);
   path.lit_side = Vec3f(0.0f);
+  path.receiver_set = receiver_set_in_media(path);
   path.bsdf_pdf = phase.pdf;
   path.is_specular = path.is_camera_ray = path.is_translucent = path.shows_film = false;
   path.length += distance;
   path.least_pdf = std::min(path.least_pdf, phase.pdf);
-  return survives_roulette(path);
+  if (!survives_roulette(path)) return false;
+  if (has_links()) look_for_linked_lights(path, ray);
+  return true;
+}
+
+// As Blender has it, light in several volumes at once is received by the one that was entered last.
+int PathIntegrator::receiver_set_in_media(const Path& path) const {
+  const std::uint32_t instance = media_[path.media].innermost();
+  return instance == MediaStack::world ? 0 : scene_.instances[instance].receiver_set;
 }
 
 // To the other side of what the point is on than its ray came from.

@@ -166,4 +166,15 @@ void read(const JsonValue& value, std::vector<Transform>& out) {
   for (std::size_t i = 0; i < value.size(); ++i) read(value.item(i), out.emplace_back());
 }
 
+void read(const JsonValue& value, LinkSets& out) {
+  value.expect_array();
+  out = LinkSets::none();
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    int set = 0;
+    read(value.item(i), set);
+    validate_field(set, within(0, LinkSets::count - 1), value.item(i).path(), "");
+    out.add(set);
+  }
+}
+
 }  // namespace basicrt

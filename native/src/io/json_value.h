@@ -13,6 +13,7 @@
 #include "base/suggest.h"
 #include "base/validate_fields.h"
 #include "io/json.h"
+#include "light/link_sets.h"
 #include "math/transform.h"
 #include "math/vec.h"
 
@@ -74,6 +75,7 @@ void read_numbers(const JsonValue& value, std::vector<std::uint32_t>& out);
 
 inline void read(const JsonValue& value, std::vector<float>& out) { read_numbers(value, out); }
 void read(const JsonValue& value, std::vector<Transform>& out);
+void read(const JsonValue& value, LinkSets& out);
 
 // Reads the member `key` where there is one.
 template <class T>

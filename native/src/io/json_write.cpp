@@ -30,6 +30,14 @@ Json write(const Transform& value) {
 }
 
 Json write(const std::vector<float>& values) { return values.empty() ? Json(nullptr) : write_array(values); }
+Json write(LinkSets sets) {
+  if (sets.is_all()) return nullptr;
+  Json json = Json::array();
+  for (int set = 0; set < LinkSets::count; ++set)
+    if (sets.has(set)) json.push_back(set);
+  return json;
+}
+
 Json write(const std::vector<Transform>& values) {
   if (values.empty()) return nullptr;
   Json json = Json::array();

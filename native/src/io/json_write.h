@@ -7,6 +7,7 @@
 
 #include "base/describe.h"
 #include "io/json.h"
+#include "light/link_sets.h"
 #include "math/transform.h"
 #include "math/vec.h"
 
@@ -20,6 +21,9 @@ namespace basicrt {
 // Null for none.
 [[nodiscard]] Json write(const std::vector<float>& values);
 [[nodiscard]] Json write(const std::vector<Transform>& values);
+
+// Their numbers; null for all.
+[[nodiscard]] Json write(LinkSets sets);
 
 template <class T>
   requires std::is_integral_v<T>

@@ -11,7 +11,7 @@ namespace basicrt {
 namespace {
 
 // "shape", then what every object may have.
-constexpr std::array<std::string_view, 20> shape_object_keys = {"shape",
+constexpr std::array<std::string_view, 24> shape_object_keys = {"shape",
                                                                 "name",
                                                                 "material_name",
                                                                 "materials",
@@ -30,7 +30,11 @@ constexpr std::array<std::string_view, 20> shape_object_keys = {"shape",
                                                                 "shadow_terminator_shading_offset",
                                                                 "pass_index",
                                                                 "light_group",
-                                                                "asset_name"};
+                                                                "asset_name",
+                                                                "receiver_set",
+                                                                "blocker_set",
+                                                                "lit_sets",
+                                                                "blocker_sets"};
 constexpr auto object_keys = std::span(shape_object_keys).subspan(1);
 
 Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
@@ -125,6 +129,10 @@ void read_object(SceneReader& reader, const JsonValue& object) {
   read_optional(object, "pass_index", instance.pass_index);
   read_optional(object, "light_group", instance.light_group);
   read_optional(object, "asset_name", instance.asset_name);
+  read_optional(object, "receiver_set", instance.receiver_set);
+  read_optional(object, "blocker_set", instance.blocker_set);
+  read_optional(object, "lit_sets", instance.lit_sets);
+  read_optional(object, "blocker_sets", instance.blocker_sets);
   if (const auto light = object.find("light")) read_area_light(reader, *light, instance.materials);
   if (is_empty(reader.scene.shapes[instance.shape]))
     object.warn(reader.report, "skipped: the mesh has no triangles");

@@ -220,6 +220,10 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
   if (instance.pass_index != 0) json["pass_index"] = instance.pass_index;
   if (instance.light_group != 0) json["light_group"] = instance.light_group;
   if (!instance.asset_name.empty()) json["asset_name"] = instance.asset_name;
+  if (instance.receiver_set != 0) json["receiver_set"] = instance.receiver_set;
+  if (instance.blocker_set != 0) json["blocker_set"] = instance.blocker_set;
+  if (!instance.lit_sets.is_all()) json["lit_sets"] = write(instance.lit_sets);
+  if (!instance.blocker_sets.is_all()) json["blocker_sets"] = write(instance.blocker_sets);
   return json;
 }
 

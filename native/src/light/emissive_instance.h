@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "geometry/shape.h"
+#include "light/link_sets.h"
 #include "math/color.h"
+#include "math/ray.h"
 #include "math/transform.h"
 
 namespace basicrt {
@@ -15,6 +17,8 @@ namespace basicrt {
 struct EmissiveInstance {
   std::uint32_t instance = 0;
   int light_group = 0;
+  LinkSets lit_sets;                       // of receivers
+  std::uint32_t shadow_kind = ray_shadow;  // RayKind bits of the rays that find out what dims its light
   const Shape* shape = nullptr;
   TransformD object_to_world;
   TransformD world_to_object;

@@ -28,6 +28,8 @@ Lamp::Lamp(const Light& light)
         add(lamp.is_transmission_visible, ray_transmission);
         add(lamp.is_volume_visible, ray_volume);
         is_varying = lamp.material.is_valid();
+        lit_sets = lamp.lit_sets;
+        blocker_sets = lamp.blocker_sets;
       },
       light);
 }
@@ -49,6 +51,7 @@ std::optional<LightSample> sample_light(const Lamp& lamp, Vec3f position, Vec2f 
       lamp.kind);
   if (!sample || !is_usable(sample->radiance, sample->pdf)) return std::nullopt;
   sample->kinds = lamp.visibility;
+  sample->shadow_kind = lamp.shadow_kind;
   return sample;
 }
 

@@ -10,6 +10,7 @@
 #include "light/area.h"
 #include "light/light.h"
 #include "light/light_bounds.h"
+#include "light/link_sets.h"
 #include "light/point.h"
 #include "light/spot.h"
 #include "light/sun.h"
@@ -26,7 +27,10 @@ struct Lamp {
   std::variant<PointLight, SpotLamp, SunLight, AreaLamp> kind;
   std::uint32_t visibility = 0;  // RayKind bits of the rays that see it
   bool is_varying = false;       // it has a material
-  float estimate = 1;            // what that multiplies its light by, about: for power and bounds
+  LinkSets lit_sets;             // of receivers
+  LinkSets blocker_sets;
+  std::uint32_t shadow_kind = ray_shadow;  // RayKind bits of the rays that find out what dims its light
+  float estimate = 1;                      // what that multiplies its light by, about: for power and bounds
 };
 
 // Light from a single place or direction: rays never run into it.

@@ -10,6 +10,7 @@
 #include "base/id.h"
 #include "geometry/hit.h"
 #include "light/light_group.h"
+#include "light/link_sets.h"
 #include "math/color.h"
 #include "math/ray.h"
 #include "math/transform.h"
@@ -33,7 +34,9 @@ constexpr auto lamp_switches() {
       field("light_group", &Lamp::light_group, "its light is in the pass Light Group of this number too; 0: in none",
             within(0, light_groups)),
       field("material", &Lamp::material, "whose emission multiplies the lamp's light, place by place; none: by 1"),
-      field("object_transform", &Lamp::object_to_world, "local to world, of what the material takes for its object"));
+      field("object_transform", &Lamp::object_to_world, "local to world, of what the material takes for its object"),
+      field("lit_sets", &Lamp::lit_sets, "the sets of receivers that it lights, 0 to 63; not given: all"),
+      field("blocker_sets", &Lamp::blocker_sets, "the sets of blockers that dim its light, 0 to 63; not given: all"));
 }
 
 // A sphere of the given radius, or a point where that is 0. With soft falloff a disc that faces the lit point stands
@@ -50,6 +53,7 @@ struct PointLight {
   int light_group = 0;
   Id<Material> material;
   Transform object_to_world;
+  LinkSets lit_sets, blocker_sets;
   static constexpr std::string_view kind = "point";
   static constexpr auto fields() {
     return joined(fields_of(field("position", &PointLight::position, "world space, metres"),
@@ -74,6 +78,7 @@ struct SpotLight {
   int light_group = 0;
   Id<Material> material;
   Transform object_to_world;
+  LinkSets lit_sets, blocker_sets;
   static constexpr std::string_view kind = "spot";
   static constexpr auto fields() {
     return joined(fields_of(field("transform", &SpotLight::to_world, "local to world; shines along local -z"),
@@ -97,6 +102,7 @@ struct SunLight {
   int light_group = 0;
   Id<Material> material;
   Transform object_to_world;
+  LinkSets lit_sets, blocker_sets;
   static constexpr std::string_view kind = "sun";
   static constexpr auto fields() {
     return joined(
@@ -120,6 +126,7 @@ struct AreaLight {
   int light_group = 0;
   Id<Material> material;
   Transform object_to_world;
+  LinkSets lit_sets, blocker_sets;
   static constexpr std::string_view kind = "area";
   static constexpr auto fields() {
     return joined(fields_of(field("transform", &AreaLight::to_world, "local to world; a unit square or disc at z = 0"),
@@ -142,6 +149,7 @@ struct LightSample {
   // A lamp's switches: the kinds of scattering that it lights, whether a shadow ray is needed, and the last bounce.
   std::uint32_t kinds = ray_all;
   bool casts_shadows = true;
+  std::uint32_t shadow_kind = ray_shadow;  // RayKind bits of such a ray
   int max_bounces = 1024;
   int light_group = 0;
   // Of a surface that doesn't emit the same everywhere: whose it is. The radiance counts times what it emits there.
@@ -156,7 +164,8 @@ struct LightHit {
   Color radiance{0.0f};
   float pdf = 0;  // that sample_light() gives this direction, over solid angle
   int light_group = 0;
-  std::uint32_t varying_lamp = Hit::none;  // as of a LightSample
+  std::uint32_t shadow_kind = ray_shadow;  // as of a LightSample
+  std::uint32_t varying_lamp = Hit::none;  // the same
 };
 
 // A path that starts at the light.

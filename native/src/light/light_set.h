@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -42,14 +43,14 @@ class LightSet {
   [[nodiscard]] std::optional<LightSample> sample(const LitPoint& point, float choice, Vec2f u, float time = 0) const;
 
   // One light for all of a ray on which light may be scattered anywhere. A guess at the place counts for the choice, but
-  // no light that reaches some other place is left out. Nothing where there is no light.
+  // no light that reaches some other place is left out. Nothing where no light lights the receiver.
   struct Choice {
     bool is_environment = false;
     LightRef light{};  // else
     float probability = 0;
     float rest = 0;  // uniform in [0, 1) again
   };
-  [[nodiscard]] std::optional<Choice> choose(Vec3f guess, float u) const;
+  [[nodiscard]] std::optional<Choice> choose(const LitPoint& guess, float u) const;
   // Where it is, at time 0; nothing where it is infinitely far away.
   [[nodiscard]] std::optional<LightExtent> extent(const Choice& choice) const;
   // About how much of its light it sends to a place, for what has a beam; above 0.
@@ -58,30 +59,37 @@ class LightSet {
   [[nodiscard]] std::optional<LightSample> sample_chosen(const Choice& choice, Vec3f position, Vec2f u,
                                                          float time) const;
   // How often sample() chooses this light.
-  [[nodiscard]] float probability(const Choice& choice, Vec3f position) const;
+  [[nodiscard]] float probability(const Choice& choice, const LitPoint& point) const;
 
-  // The density of sample() for a ray from the point that hit an emissive surface.
+  // The density of sample() for a ray from the point that hit an emissive surface; 0, too, where that doesn't light it.
   [[nodiscard]] float pdf_surface(const SurfacePoint& hit, const LitPoint& point) const;
   // The same for a ray that hit nothing; 0 where BSDF sampling alone finds the environment.
-  [[nodiscard]] float pdf_environment(Vec3f direction) const {
-    return environment_share_ == 0 ? 0 : environment_share_ * environment_.pdf(direction);
+  [[nodiscard]] float pdf_environment(Vec3f direction, int receiver_set = LinkSets::unlinked) const {
+    const float share = chooser_of(receiver_set).environment_share;
+    return share == 0 ? 0 : share * environment_.pdf(direction);
   }
 
-  // Calls visit(LightHit) for each lamp that the ray passes through, with pdfs that include the choice at its origin,
-  // where `normal` is as in LitPoint. All of them: lamps don't block rays.
+  // Calls visit(LightHit) for each lamp that the ray passes through, with pdfs that include the choice at its origin: of
+  // those that light what is there. All of them: lamps don't block rays.
   template <class Visitor>
-  void for_each_lamp_hit(const Ray& ray, Vec3f normal, Visitor&& visit) const {
-    const auto visit_lamp = [&](std::uint32_t lamp) { visit_hit(lamp, ray, normal, visit); };
+  void for_each_lamp_hit(const Ray& ray, const LitPoint& origin, Visitor&& visit) const {
+    const auto visit_lamp = [&](std::uint32_t lamp) { visit_hit(lamp, ray, origin, visit); };
     if (lamps_with_size_.size() <= few_lamps)
       std::for_each(lamps_with_size_.begin(), lamps_with_size_.end(), visit_lamp);
     else
-      picker_.visit_solid(ray, visit_lamp);
+      chooser_of(origin.receiver_set).picker.visit_solid(ray, visit_lamp);
   }
   // The same for lamps infinitely far away, whatever the ray's end: for rays that hit nothing.
   template <class Visitor>
-  void for_each_distant_hit(Ray ray, Vec3f normal, Visitor&& visit) const {
+  void for_each_distant_hit(Ray ray, const LitPoint& origin, Visitor&& visit) const {
     ray.t_max = infinity;
-    for (const std::uint32_t lamp : distant_lamps_with_size_) visit_hit(lamp, ray, normal, visit);
+    for (const std::uint32_t lamp : distant_lamps_with_size_) visit_hit(lamp, ray, origin, visit);
+  }
+  // The same for all lamps, near and far, that only some objects dim.
+  template <class Visitor>
+  void for_each_linked_hit(Ray ray, const LitPoint& origin, Visitor&& visit) const {
+    ray.t_max = infinity;
+    for (const std::uint32_t lamp : linked_lamps_with_size_) visit_hit(lamp, ray, origin, visit);
   }
 
   // What a ray sees that hits nothing.
@@ -91,44 +99,63 @@ class LightSet {
   [[nodiscard]] int environment_light_group() const { return environment_.light_group(); }
   [[nodiscard]] const Lamp& lamp(std::uint32_t number) const { return lamps_[number]; }
   // Nothing to sample.
-  [[nodiscard]] bool is_empty() const { return picker_.size() == 0 && environment_share_ == 0; }
+  [[nodiscard]] bool is_empty() const { return chooser_of(LinkSets::unlinked).is_empty(); }
 
  private:
-  using Emitter = std::variant<MeshEmitter, SphereEmitter>;
+  // What a surface that shines is sampled by.
+  struct Emitter {
+    std::variant<MeshEmitter, SphereEmitter> shape;
+    int light_group;
+    LinkSets lit_sets;
+    std::uint32_t shadow_kind;
+  };
+  // How often each light is chosen, for receivers that the same ones light.
+  struct Chooser {
+    LightPicker picker;           // its sources are the lamps first, then the emitters
+    DiscreteDistribution powers;  // for choose(): of each light, by its number
+    float environment_share = 0;  // how often the environment is chosen
+    [[nodiscard]] bool is_empty() const { return picker.size() == 0 && environment_share == 0; }
+  };
 
+  void add_lamp(std::uint32_t lamp);
   void add_emitter(const EmissiveInstance& instance);
+  void add_choosers(bool has_volumes);
+  [[nodiscard]] Chooser make_chooser(int receiver_set, bool has_volumes) const;
+  [[nodiscard]] DiscreteDistribution powers_for(int receiver_set) const;
+  [[nodiscard]] const Chooser& chooser_of(int receiver_set) const {
+    return choosers_[chooser_of_set_[static_cast<std::size_t>(receiver_set)]];
+  }
   [[nodiscard]] std::optional<LightSample> sample_lamp_or_emitter(LightRef light, Vec3f position, Vec2f u,
                                                                   float time) const;
   [[nodiscard]] const Emitter& emitter_of(LightRef light) const { return emitters_[light.source - lamps_.size()]; }
   [[nodiscard]] bool is_lamp(LightRef light) const { return light.source < lamps_.size(); }
-  void share_by_power();
-  [[nodiscard]] std::optional<LightSample> sample_picked(const LitPoint& point, float choice, Vec2f u,
-                                                         float time) const;
 
   // So few are looked at one by one.
   static constexpr std::size_t few_lamps = 2;
 
   template <class Visitor>
-  void visit_hit(std::uint32_t lamp, const Ray& ray, Vec3f normal, Visitor&& visit) const {
+  void visit_hit(std::uint32_t lamp, const Ray& ray, const LitPoint& origin, Visitor&& visit) const {
+    if (!lamps_[lamp].lit_sets.has(origin.receiver_set)) return;
     std::optional<LightHit> hit = intersect_light(lamps_[lamp], ray);
     if (!hit) return;
-    hit->pdf *= (1 - environment_share_) * picker_.probability({lamp, 0}, {ray.origin, normal});
+    const Chooser& chooser = chooser_of(origin.receiver_set);
+    hit->pdf *= (1 - chooser.environment_share) * chooser.picker.probability({lamp, 0}, origin);
+    hit->shadow_kind = lamps_[lamp].shadow_kind;
     if (lamps_[lamp].is_varying) hit->varying_lamp = lamp;
     visit(*hit);
   }
 
   std::vector<Lamp> lamps_;
-  std::vector<std::uint32_t> lamps_with_size_, distant_lamps_with_size_;  // those that rays can run into
+  // Those that rays can run into.
+  std::vector<std::uint32_t> lamps_with_size_, distant_lamps_with_size_, linked_lamps_with_size_;
   std::vector<Emitter> emitters_;
-  std::vector<int> emitter_groups_;                 // of each emitter
   std::vector<std::uint32_t> emitter_of_instance_;  // index into emitters_, or no_emitter
-  LightPicker picker_;                              // its sources are the lamps first, then the emitters
-  // For choose(): each lamp and each triangle has a number, by which it is found among the powers.
-  std::vector<std::uint32_t> first_numbers_;  // of each source
-  DiscreteDistribution powers_;
+  // Of each source of pickers, its first light's number among the powers.
+  std::vector<std::uint32_t> first_numbers_;
+  std::vector<Chooser> choosers_ = std::vector<Chooser>(1);
+  std::array<std::uint8_t, LinkSets::count + 1> chooser_of_set_{};  // an index into choosers_
   EnvironmentSampler environment_;
   float scene_radius_ = 1;
-  float environment_share_ = 0;  // how often the environment is chosen
 };
 
 }  // namespace basicrt

@@ -17,9 +17,15 @@ enum RayKind : std::uint32_t {
   ray_transmission = 1u << 3,
   ray_volume = 1u << 4,
   ray_shadow = 1u << 5,
-  ray_catcher = 1u << 6,  // of no object's own choice: sees shadow catchers and nothing else
+  ray_own_choice = (1u << 6) - 1,  // all that objects choose by themselves
+  ray_catcher = 1u << 6,           // sees shadow catchers and nothing else
+  ray_linked_emitter = 1u << 7,    // sees what shines and has a shadow link of its own, and nothing else
   ray_all = ~0u,
 };
+
+// Shadow rays towards lights that only some objects dim: a kind for each choice of objects, number 0 first.
+inline constexpr int most_shadow_links = 24;
+[[nodiscard]] constexpr std::uint32_t shadow_link_kind(int number) { return 1u << (8 + number); }
 
 // Points origin + t * direction for t in [t_min, t_max]. The direction need not have unit length.
 struct Ray {

@@ -192,7 +192,8 @@ void ViewSession::State::prepare_scene(const Scene& next, std::unique_lock<std::
   std::exception_ptr failure;
   std::optional<SceneMemory> used;
   try {
-    scene = prepare(next, said, std::move(scene), {.threads = pool.thread_count(), .progress = progress.get()});
+    scene = prepare(next, said, std::move(scene),
+                    {.threads = pool.thread_count(), .is_live = true, .progress = progress.get()});
     has_scene = true;
     used = memory_of(scene);
   } catch (const Cancelled&) {  // it is over

@@ -17,6 +17,7 @@
 #include "scene/emission_estimate.h"
 #include "scene/lamp_estimate.h"
 #include "scene/mattes.h"
+#include "scene/shadow_links.h"
 
 namespace basicrt {
 namespace {
@@ -29,6 +30,7 @@ constexpr std::size_t large_shape = 32768;
 BvhConfig bvh_config(const RenderSettings& settings, const PrepareOptions& options) {
   BvhConfig config;
   config.builder = settings.bvh_builder;
+  config.merges_small_meshes = !options.is_live;
   config.threads = options.threads;
   config.progress = options.progress;
   return config;
@@ -134,14 +136,33 @@ std::vector<TransformD> motion_of(const Instance& instance) {
   return keys;
 }
 
-std::uint32_t traced_visibility(const Instance& instance) {
-  return instance.is_shadow_catcher ? instance.visibility | ray_catcher : instance.visibility & ~ray_catcher;
+// What it chooses itself, and what comes of what it is.
+std::uint32_t traced_visibility(const Instance& instance, const PreparedScene& scene, bool is_linked_emitter) {
+  std::uint32_t kinds = instance.visibility & ray_own_choice;
+  if (instance.is_shadow_catcher) kinds |= ray_catcher;
+  if (is_linked_emitter) kinds |= ray_linked_emitter;
+  if ((kinds & ray_shadow) == 0) return kinds;
+  for (std::size_t i = 0; i < scene.shadow_links.size(); ++i)
+    if (scene.shadow_links[i].has(instance.blocker_set)) kinds |= shadow_link_kind(static_cast<int>(i));
+  return kinds;
+}
+
+// Of the rays towards a light that those blockers dim.
+std::uint32_t shadow_kind(const PreparedScene& scene, LinkSets blockers) {
+  const auto link = std::ranges::find(scene.shadow_links, blockers);
+  return link == scene.shadow_links.end() ? std::uint32_t{ray_shadow}
+                                          : shadow_link_kind(static_cast<int>(link - scene.shadow_links.begin()));
 }
 
 // None where the surface is as smooth as its normals.
 float shadow_terminator_offset(const Scene& scene, const Instance& instance) {
   const auto* mesh = std::get_if<Mesh>(&scene.shapes[instance.shape]);
   return mesh && !mesh->corner_normals.empty() ? instance.shadow_terminator_offset : 0;
+}
+
+bool shines(const PreparedScene& prepared, const PreparedScene::PreparedInstance& instance) {
+  return std::ranges::any_of(instance.materials,
+                             [&](std::uint32_t index) { return is_emissive(prepared.materials[index].material); });
 }
 
 // The shapes and materials must be there.
@@ -161,21 +182,25 @@ PreparedScene::PreparedInstance prepare_instance(const Scene& scene, const Prepa
                                          .pass_index = instance.pass_index,
                                          .light_group = instance.light_group,
                                          .object_id = matte_id(instance.name),
-                                         .asset_id = matte_id(asset_name(instance))};
+                                         .asset_id = matte_id(asset_name(instance)),
+                                         .receiver_set = instance.receiver_set,
+                                         .lit_sets = instance.lit_sets};
   for (const std::uint32_t index : result.materials) {
     const PreparedMaterial& material = prepared.materials[index];
     result.needs_derivatives = result.needs_derivatives || needs_derivatives(material.material) ||
                                (material.aovs && needs_derivatives(*material.aovs));
   }
   if (result.needs_derivatives) result.box = bounds(prepared.shapes[result.shape]);
+  if (shines(prepared, result)) result.shadow_kind = shadow_kind(prepared, instance.blocker_sets);
+  result.visibility = traced_visibility(instance, prepared, result.shadow_kind != ray_shadow);
   return result;
 }
 
-TracedInstance traced_instance(const Instance& instance, const PreparedScene::PreparedInstance& prepared) {
+TracedInstance traced_instance(const PreparedScene::PreparedInstance& prepared) {
   return {.shape = prepared.shape,
           .object_to_world = prepared.placement.object_to_world,
           .world_to_object = prepared.placement.world_to_object,
-          .visibility = traced_visibility(instance),
+          .visibility = prepared.visibility,
           .motion = prepared.motion};
 }
 
@@ -212,9 +237,9 @@ bool is_same_environment(const Environment& a, const Environment& b) {
 
 // What an instance must have as before for lights and volumes to be what they were.
 bool shines_or_scatters(const PreparedScene& prepared, const PreparedScene::PreparedInstance& instance) {
-  return std::ranges::any_of(instance.materials, [&](std::uint32_t index) {
-    return is_emissive(prepared.materials[index].material) || prepared.materials[index].medium.has_value();
-  });
+  return shines(prepared, instance) || std::ranges::any_of(instance.materials, [&](std::uint32_t index) {
+           return prepared.materials[index].medium.has_value();
+         });
 }
 
 // Puts instances that were written since where they are now; false, with nothing changed that counts, where more than
@@ -236,7 +261,7 @@ bool move_instances(const Scene& scene, PreparedScene& prepared, const BvhConfig
     if (shines_or_scatters(prepared, moved.back()) || shines_or_scatters(prepared, prepared.instances[i]) ||
         moved.back().is_shadow_catcher != prepared.instances[i].is_shadow_catcher)
       return false;
-    moves.push_back({i, traced_instance(instance, moved.back())});
+    moves.push_back({i, traced_instance(moved.back())});
   }
   const Bounds3f bounds_before = prepared.tracer.bounds();
   if (!moves.empty() && !prepared.tracer.move_instances(moves, config)) return false;
@@ -278,6 +303,8 @@ std::optional<EmissiveInstance> find_emission(const PreparedScene& scene, std::u
   if (!is_sampled_as_light(scene.shapes[instance.shape])) return std::nullopt;
   EmissiveInstance result{.instance = index,
                           .light_group = instance.light_group,
+                          .lit_sets = instance.lit_sets,
+                          .shadow_kind = instance.shadow_kind,
                           .shape = &scene.shapes[instance.shape],
                           .object_to_world = instance.placement.object_to_world,
                           .world_to_object = instance.placement.world_to_object,
@@ -325,7 +352,8 @@ std::vector<Lamp> prepare_lamps(const Scene& scene, PreparedScene& prepared, int
       light_of(light) *= emitted_radiance(material, SurfaceSide::front);
     };
     std::visit(prepare_material, light);
-    lamps.emplace_back(light);
+    Lamp& lamp = lamps.emplace_back(light);
+    lamp.shadow_kind = shadow_kind(prepared, lamp.blocker_sets);
   }
   parallel_for(lamps.size(), threads, [&](std::size_t i) {
     if (lamps[i].is_varying)
@@ -369,6 +397,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   for (PreparedMaterial& prepared_material : prepared.materials)
     prepared_material.matte_id = matte_id(prepared_material.material.name);
 
+  prepared.shadow_links = find_shadow_links(scene);
   std::vector<ShapeTree> trees = prepare_shapes(scene, report, previous, prepared, config);
 
   std::vector<TracedInstance> traced;
@@ -381,9 +410,10 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     if (is_empty(prepared.shapes[instance.shape.index])) continue;
     prepared.instances.push_back(prepare_instance(scene, prepared, instance));
     const PreparedScene::PreparedInstance& added = prepared.instances.back();
-    traced.push_back(traced_instance(instance, added));
+    traced.push_back(traced_instance(added));
     const auto* mesh = std::get_if<Mesh>(&prepared.shapes[instance.shape.index]);
     prepared.has_moving_shapes = prepared.has_moving_shapes || !added.motion.empty() || (mesh && mesh->is_deforming());
+    prepared.has_linked_emitters = prepared.has_linked_emitters || added.shadow_kind != ray_shadow;
   }
   find_volumes(scene, prepared);
   for (const PreparedMaterial& prepared_material : prepared.materials)

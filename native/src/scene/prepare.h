@@ -36,6 +36,10 @@ struct PreparedScene {
     int pass_index = 0;
     int light_group = 0;
     std::uint32_t object_id = 0, asset_id = 0;  // of mattes
+    std::uint32_t visibility = ray_all;         // RayKind bits, as the tracer has them
+    int receiver_set = 0;
+    LinkSets lit_sets;                       // of receivers, of what it emits
+    std::uint32_t shadow_kind = ray_shadow;  // RayKind bits of shadow rays towards it
   };
 
   CameraView view;             // of a camera that stands still
@@ -74,6 +78,8 @@ struct PreparedScene {
   bool has_moving_shapes = false;       // something but the camera moves or deforms
   bool has_motion = false;              // rays have a time
   bool has_shadow_catchers = false;
+  std::vector<LinkSets> shadow_links;  // all choices of blockers that lights make; each has its kind of shadow ray
+  bool has_linked_emitters = false;    // instances that shine have one
 
   [[nodiscard]] const PreparedMaterial& material_of(const SurfacePoint& point) const {
     const std::vector<std::uint32_t>& slots = instances[point.instance].materials;
@@ -88,6 +94,7 @@ struct PreparedScene {
 
 struct PrepareOptions {
   int threads = 0;                   // 0: one for each processor; the outcome is the same for any number
+  bool is_live = false;              // instances will be moved: that is quick, tracing a bit slower
   WorkProgress* progress = nullptr;  // hears how far the trees are, and can cancel them
 };
 

@@ -34,9 +34,11 @@ struct Instance {
   ObjectInfo info;                 // for materials that ask
   // See shadow_terminator.h, both in [0, 1].
   float shadow_terminator_offset = 0, shadow_terminator_shading_offset = 0;
-  int pass_index = 0;      // the pass Object Index
-  int light_group = 0;     // of what its materials emit
-  std::string asset_name;  // what it is part of, for the passes CryptoAsset; none: `name`
+  int pass_index = 0;                     // the pass Object Index
+  int light_group = 0;                    // of what its materials emit
+  std::string asset_name;                 // what it is part of, for the passes CryptoAsset; none: `name`
+  int receiver_set = 0, blocker_set = 0;  // by which lights know it, see link_sets.h
+  LinkSets lit_sets, blocker_sets;        // of what its materials emit: receivers, and what dims it
 };
 
 struct Scene {

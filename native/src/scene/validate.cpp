@@ -9,6 +9,7 @@
 #include "base/validate_fields.h"
 #include "bsdf/bsdf.h"
 #include "scene/scene.h"
+#include "scene/shadow_links.h"
 
 namespace basicrt {
 namespace {
@@ -220,6 +221,8 @@ void validate_instance(const Scene& scene, std::uint32_t index, const std::vecto
       validate_id(id, scene.materials, item + "." + entry("materials", slot), "materials");
   const Bounds3f local = shape_bounds ? (*shape_bounds)[instance.shape.index] : bounds(scene.shapes[instance.shape]);
   validate_field(instance.light_group, within(0, light_groups), item, "light_group");
+  validate_field(instance.receiver_set, within(0, LinkSets::count - 1), item, "receiver_set");
+  validate_field(instance.blocker_set, within(0, LinkSets::count - 1), item, "blocker_set");
   validate_field(instance.shadow_terminator_offset, within(0, 1), item, "shadow_terminator_offset");
   validate_field(instance.shadow_terminator_shading_offset, within(0, 1), item, "shadow_terminator_shading_offset");
   for (const ObjectProperty& property : instance.info.properties)
@@ -319,6 +322,9 @@ void validate_description(const Scene& scene) {
   validate_materials(scene);
   validate_instances(scene);
   validate_lights(scene);
+  if (const std::size_t links = find_shadow_links(scene).size(); links > most_shadow_links)
+    throw SceneError("blocker_sets", "there may be " + std::to_string(most_shadow_links) +
+                                         " different choices of them in a scene, there are " + std::to_string(links));
 }
 
 void validate_instance(const Scene& scene, Id<Instance> id) { validate_instance(scene, id.index, nullptr); }

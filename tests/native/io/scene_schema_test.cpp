@@ -69,6 +69,8 @@ Json value_schema(const Range& range) {
     return {{"$ref", "#/$defs/transform"}};
   else if constexpr (std::same_as<Value, std::vector<Transform>>)
     return {{"type", "array"}, {"items", {{"$ref", "#/$defs/transform"}}}};
+  else if constexpr (std::same_as<Value, LinkSets>)
+    return {{"$ref", "#/$defs/link_sets"}};
   else if constexpr (std::same_as<Value, std::vector<float>>)
     return {{"type", "array"}, {"items", range_schema("number", range)}};
   else if constexpr (IsInput<Value>)

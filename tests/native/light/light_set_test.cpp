@@ -89,10 +89,10 @@ void for_each_surface_hit(const EmissiveInstance& emitter, Vec3d origin, Vec3d d
 }
 
 template <class Visitor>
-void for_each_lamp_density(const LightSet& lights, Vec3f position, Vec3f wi, Visitor&& visit) {
-  const Ray ray{.origin = position, .direction = wi};
-  lights.for_each_lamp_hit(ray, Vec3f(0), visit);
-  lights.for_each_distant_hit(ray, Vec3f(0), visit);
+void for_each_lamp_density(const LightSet& lights, const LitPoint& lit, Vec3f wi, Visitor&& visit) {
+  const Ray ray{.origin = lit.position, .direction = wi};
+  lights.for_each_lamp_hit(ray, lit, visit);
+  lights.for_each_distant_hit(ray, lit, visit);
 }
 
 // `surfaces` are the emissive shapes, standing where they are at the time.
@@ -182,11 +182,11 @@ void add_a_bit_of_everything(Scene& scene, Rng& rng) {
 
 // Calls visit(source, distance, pdf) for everything in a direction; shapes come after the lamps.
 template <class Visitor>
-void for_each_density(const Scene& scene, const LightSet& lights, Vec3f position, Vec3f wi, Visitor&& visit) {
-  for_each_lamp_density(lights, position, wi, [&](const LightHit& hit) { visit(0u, hit.t, hit.pdf); });
+void for_each_density(const Scene& scene, const LightSet& lights, const LitPoint& lit, Vec3f wi, Visitor&& visit) {
+  for_each_lamp_density(lights, lit, wi, [&](const LightHit& hit) { visit(0u, hit.t, hit.pdf); });
   for (std::uint32_t i = 0; i < scene.emitters.size(); ++i)
-    for_each_surface_hit(scene.emitters[i], Vec3d(position), Vec3d(wi), [&](const SurfacePoint& point) {
-      visit(i + 1, length(point.position - position), lights.pdf_surface(point, position));
+    for_each_surface_hit(scene.emitters[i], Vec3d(lit.position), Vec3d(wi), [&](const SurfacePoint& point) {
+      visit(i + 1, length(point.position - lit.position), lights.pdf_surface(point, lit));
     });
 }
 
@@ -351,7 +351,7 @@ TEST(LightSet, probabilities_of_the_choice_sum_to_one) {
   const LightSet lights = scene.lights();
   double sum = 0;
   int hits = 0;
-  for_each_lamp_density(lights, {0, 0, 0}, {0, 0, 1}, [&](const LightHit& hit) {
+  for_each_lamp_density(lights, Vec3f{0, 0, 0}, {0, 0, 1}, [&](const LightHit& hit) {
     sum += hit.pdf;
     ++hits;
   });
@@ -370,11 +370,11 @@ TEST(LightSet, rays_meet_lamps_among_many_and_among_black_ones) {
     for (int i = 0; i < 50; ++i) {
       int near = 0, distant = 0;
       const Ray ray{.origin = {float(i), 0, 0}, .direction = {0, 0, 1}, .t_max = 100};
-      lights.for_each_lamp_hit(ray, Vec3f(0), [&](const LightHit& hit) {
+      lights.for_each_lamp_hit(ray, ray.origin, [&](const LightHit& hit) {
         ++near;
         EXPECT_NEAR(hit.t, 2.9f, 1e-4);
       });
-      lights.for_each_distant_hit(ray, Vec3f(0), [&](const LightHit&) { ++distant; });
+      lights.for_each_distant_hit(ray, ray.origin, [&](const LightHit&) { ++distant; });
       EXPECT_EQ(near, i < shining ? 1 : 0) << shining;
       EXPECT_EQ(distant, 1);  // whatever the ray's end
     }
@@ -461,6 +461,40 @@ TEST(LightSet, a_million_triangles_shed_the_light_of_the_square_that_they_make) 
   scene.add(std::move(grid), {}, {Color(1)}, {Color(1)});
   const double expected = polygon_irradiance({{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}, {0, 0, 1});
   EXPECT_NEAR(irradiance(scene.lights(), {0, 0, 0}, {0, 0, 1}) / expected, 1, 5e-3);
+}
+
+TEST(LightSet, samples_for_each_set_of_receivers_are_of_the_lights_that_light_it) {
+  Rng rng(5);
+  Scene scene;
+  const auto lit = [](std::uint64_t bits) { return LinkSets{bits}; };
+  scene.lamps.push_back(PointLight{.position = {1, 0, 3}, .radius = 0.3f, .lit_sets = lit(0b0110)});
+  scene.lamps.push_back(SunLight{.direction = {0, 0.3f, -1}, .angle = 0.4f, .lit_sets = lit(0b0011)});
+  scene.lamps.push_back(AreaLight{.to_world = {}, .lit_sets = lit(0b1010)});
+  scene.lamps.push_back(PointLight{.position = {-4, 0, 0}, .radius = 0.5f, .lit_sets = lit(0b1000)});
+  scene.add(random_mesh(7, rng), {}, {Color(1.0f), Color(2.0f), Color(0.5f)}, {Color(0.0f), Color(1.0f), Color(0.0f)});
+  scene.emitters.back().lit_sets = lit(0b1100);
+  const LightSet lights = scene.lights();
+  for (const int set : {0, 1, 2, 3, 17, int{LinkSets::unlinked}}) {
+    const LitPoint point({0.1f, 0.2f, -2}, Vec3f(0), set);
+    int accepted = 0;
+    double sum = 0;
+    constexpr int n = 100000;
+    for (int i = 0; i < n; ++i) {
+      const float choice = next_unit_float(rng);
+      if (const auto sample = lights.sample(point, choice, next_unit_vec2(rng))) {
+        ++accepted;
+        double least_difference = infinity;
+        for_each_density(scene, lights, point, sample->wi, [&](std::uint32_t, float, float pdf) {
+          least_difference = std::min(least_difference, std::abs(double(pdf) / sample->pdf - 1));
+        });
+        ASSERT_LT(least_difference, 2e-3) << "set " << set;
+      }
+      for_each_density(scene, lights, point, random_direction(rng),
+                       [&](std::uint32_t, float, float pdf) { sum += 4 * double(pi) * pdf; });
+    }
+    EXPECT_EQ(accepted == 0, set == 17);
+    EXPECT_NEAR(sum / n, double(accepted) / n, 0.1) << "set " << set;
+  }
 }
 
 }  // namespace

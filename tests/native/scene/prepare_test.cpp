@@ -95,6 +95,23 @@ TEST(Prepare, a_changed_environment_is_prepared_again) {
   EXPECT_EQ(prepared.lights.environment_light_group(), 3);
 }
 
+// Those that ordinary scenes have: of their own mesh each, no catchers.
+TEST(Prepare, small_meshes_share_a_tree_unless_they_are_to_be_moved) {
+  Scene scene = scene_of(one_triangle(0));
+  scene.instances.append({.name = "other", .shape = scene.shapes.append(one_triangle(2)), .object_to_world = {}});
+  Report report;
+  for (const bool is_live : {false, true}) {
+    PreparedScene prepared = prepare(scene, report, {}, {.is_live = is_live});
+    const PreparedScene::PreparedInstance& first = prepared.instances[0];
+    const Tracer::Move move{0,
+                            {.shape = first.shape,
+                             .object_to_world = first.placement.object_to_world,
+                             .world_to_object = first.placement.world_to_object,
+                             .visibility = first.visibility}};
+    EXPECT_EQ(prepared.tracer.move_instances(std::span(&move, 1), {}), is_live);
+  }
+}
+
 TEST(PrepareWatched, gives_what_prepare_gives_and_a_fraction_that_never_falls) {
   const Scene scene = scene_of(large_mesh(700));
   Report report;
