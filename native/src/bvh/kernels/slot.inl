@@ -59,9 +59,10 @@ static_assert(__builtin_offsetof(Slot, items) == 56 && __builtin_offsetof(Slot, 
                                            sizeof(KernelInstance)};
   const std::uint32_t is_no_node = reference >> 30 != 0;
   const std::uint32_t index = reference < end_of_instance ? reference & reference_index : 0;
-  const char* item = items[is_no_node] + index * sizes[reference >> 30];
-  for (int line = 0; line < 3; ++line) __builtin_prefetch(item + 64 * line);
-  __builtin_prefetch(item + 192 - 64 * is_no_node);
+  // A number, for there may be no items.
+  const std::uintptr_t item = reinterpret_cast<std::uintptr_t>(items[is_no_node]) + index * sizes[reference >> 30];
+  for (std::uintptr_t line = 0; line < 3; ++line) __builtin_prefetch(reinterpret_cast<const char*>(item + 64 * line));
+  __builtin_prefetch(reinterpret_cast<const char*>(item + 192 - 64 * is_no_node));
 }
 
 // To whom the triangle belongs.
