@@ -137,6 +137,21 @@ def shadow_terminator_shading_offset(b_object: bpy.types.Object) -> float:
     return float(getattr(getattr(data, "cycles", None), "shadow_terminator_offset", 0.0))
 
 
+def has_adaptive_subdivision(b_object: bpy.types.Object, b_scene: bpy.types.Scene) -> bool:
+    """Whether Cycles would divide an object's faces by how large they are in the picture.
+
+    The last modifier says so from 5.0 on; before, the object, where experimental features are on.
+    """
+    data: Any = b_object
+    if len(data.modifiers) == 0 or data.modifiers[-1].type != "SUBSURF":
+        return False
+    if hasattr(data.modifiers[-1], "use_adaptive_subdivision"):
+        return bool(data.modifiers[-1].use_adaptive_subdivision)
+    is_experimental = getattr(getattr(b_scene, "cycles", None), "feature_set", "") == "EXPERIMENTAL"
+    settings = getattr(data, "cycles", None)
+    return is_experimental and bool(getattr(settings, "use_adaptive_subdivision", False))
+
+
 def cell_hash() -> str:
     """By which hash of the core's Voronoi operation points are where this Blender has them."""
     return "pcg" if bpy.app.version >= (5, 0, 0) else "lookup3"

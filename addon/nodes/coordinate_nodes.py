@@ -10,12 +10,12 @@ import numpy as np
 import basicrt
 
 from .. import compat
-from .graph import Place, find_socket, trace
+from .graph import find_socket
 from .mesh_data import MeshData, ObjectData, Part, Source
 from .operations import Operands, Value, as_vector, operation
 
 if TYPE_CHECKING:
-    from .node_view import Translation
+    pass
 
 _ENDLESS = 1e30  # metres
 _COORDINATES = {
@@ -490,36 +490,3 @@ def bevel(of: Operands, _output: str) -> Value | None:
     if of.is_linked("Normal"):
         return of.value("Normal")
     return surface(of, "vector", "normal")
-
-
-def displacement_normal(place: Place, translation: Translation) -> basicrt.OperationRef | None:
-    """The normal of a surface that is displaced as much as a Displacement node says, at its place.
-
-    None where it isn't displaced, or, with a warning, by another node.
-    """
-    source = trace(place)
-    node: Any = source.socket.node
-    if not source.socket.is_output or node is None:
-        return None
-    if node.bl_idname != "ShaderNodeDisplacement":
-        translation.warn(f"displacement by {node.bl_label} is not supported and left out")
-        return None
-    from .node_view import NodeView
-
-    of = Operands(NodeView(node, source.groups, translation))
-    if of.is_linked("Normal"):
-        of.view.warn("Normal is not supported: the height counts along the surface's own")
-    above = _math(of, "subtract", of.number("Height"), of.number("Midlevel"))
-    height = _math(of, "multiply", above, of.number("Scale"))
-    return translation.material.add_operation(
-        basicrt.BumpOperation(
-            height=height,
-            distance=1.0,
-            filter_width=compat.bump_filter_width(),
-            local=node.space == "OBJECT",
-        )
-    )
-
-
-def _math(of: Operands, name: str, a: Any, b: Any) -> Any:
-    return of.add("number", basicrt.MathOperation(operation=name, a=a, b=b)).data

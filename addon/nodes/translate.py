@@ -13,7 +13,7 @@ import basicrt
 from .. import compat
 from ..report import Report
 from . import aov_output, coordinate_nodes, math_nodes, pattern_nodes, shaders, textures, volumes
-from .coordinate_nodes import displacement_normal
+from .displacement import displacement_normal, displacement_offset
 from .graph import Place, find_socket, trace
 from .images import Textures
 from .node_view import Color, LampObject, NodeView, Translation, scaled, unit
@@ -92,14 +92,19 @@ def _has_bumps(material: basicrt.Material) -> bool:
 
 
 def _displace(translation: Translation, place: Place, b_material: bpy.types.Material) -> None:
-    """Gives shaders the normal of the displaced surface, which itself stays where it is."""
-    normal = displacement_normal(place, translation)
-    if normal is None:
-        return
-    translation.normal = normal
+    """Moves the surface, or gives shaders the normal that it would have, or both: as the material says."""
+    method = getattr(b_material, "displacement_method", "BUMP")
+    if method != "BUMP":
+        offset = displacement_offset(place, translation)
+        if offset is not None:
+            keeps_normals = method == "BOTH"
+            shader = basicrt.DisplacementShader(offset=offset, keep_normals=keeps_normals)
+            translation.material.add(shader)
+    if method != "DISPLACEMENT":
+        normal = displacement_normal(place, translation)
+        if normal is not None:
+            translation.normal = normal
     translation.values.clear()  # the height knows the surface as it is, all else what it looks like
-    if getattr(b_material, "displacement_method", "BUMP") != "BUMP":
-        translation.warn("true displacement is not supported: drawn as bumps")
 
 
 def fill(surface: Translation, tree: bpy.types.ShaderNodeTree) -> None:

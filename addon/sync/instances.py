@@ -344,6 +344,8 @@ class Instances:
         """One placed object, or hair on it, and the index of its shape; None where there is nothing to see."""
         if b_object.type in _UNSUPPORTED:
             self._warn(b_object, f"{_UNSUPPORTED[b_object.type]} are not supported: left out")
+        if compat.has_adaptive_subdivision(b_object, self._b_scene):
+            self._warn(b_object, "Adaptive Subdivision is not supported: its levels count")
         b_mesh: Any = b_object.data
         if b_mesh is None or not (b_object.type in _SUPPORTED or system):
             return None

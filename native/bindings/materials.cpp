@@ -39,6 +39,7 @@ void register_materials(py::module_& m) {
   bind_described<HoldoutShader>(m, "HoldoutShader", "A hole in the picture for what the camera sees.");
   bind_described<PrincipledShader>(m, "PrincipledShader", "Blender's Principled BSDF but for thin walls.");
   bind_described<VolumeShader>(m, "VolumeShader", "What fills a shape, by its coefficients.");
+  bind_described<DisplacementShader>(m, "DisplacementShader", "By how much the surface is moved, vertex by vertex.");
   bind_described<AovShader>(m, "AovShader", "What the surface writes into the passes AOV Color and AOV Value.");
   bind_described<MixShader>(m, "MixShader", "A blend of two nodes; None is black and opaque.");
   bind_described<AddShader>(m, "AddShader", "The sum of two nodes; None is black and opaque.");

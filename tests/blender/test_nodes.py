@@ -555,12 +555,12 @@ def test_a_normal_that_cannot_be_had_is_reported() -> None:
     only_node(material, 'node "Bevel": not supported: edges stay sharp')
 
 
-def test_displacement_by_vectors_is_reported() -> None:
+def test_bumps_by_vectors_are_reported() -> None:
     material, tree, output = empty_material()
     tree.links.new(
         tree.nodes.new("ShaderNodeVectorDisplacement").outputs[0], output.inputs["Displacement"]
     )
-    translate(material, "displacement by Vector Displacement is not supported and left out")
+    translate(material, "bumps by Vector Displacement are not supported and left out")
 
 
 @pytest.mark.parametrize(

@@ -172,17 +172,6 @@ def test_displacement_drawn_as_bumps(source: str, space: str, tmp_path: Path) ->
     compare(tree, geometry.outputs["Normal"], emission, tmp_path, 2e-2, 0.03)
 
 
-def test_true_displacement_is_reported() -> None:
-    tree, _emission, made = ball()
-    node = tree.nodes.new("ShaderNodeDisplacement")
-    sink = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
-    tree.links.new(node.outputs[0], sink.inputs["Displacement"])
-    made.data.materials[0].displacement_method = "BOTH"
-    report = Report()
-    export(report)
-    assert any("true displacement is not supported" in text for text in report.warnings)
-
-
 # ---- shaders -------------------------------------------------------------------------------------
 
 

@@ -33,6 +33,7 @@ __all__: list[str] = [
     "Curves",
     "CylindricalCamera",
     "DiffuseShader",
+    "DisplacementShader",
     "EmissionShader",
     "Environment",
     "EnvironmentLayer",
@@ -4254,6 +4255,40 @@ class VolumeShader:
         self, value: collections.abc.Sequence[float] | numpy.typing.ArrayLike
     ) -> None: ...
 
+class DisplacementShader:
+    """
+    By how much the surface is moved, vertex by vertex.
+
+    offset: by how much a vertex is moved, world space, metres
+    keep_normals: the surface is shaded with the normals that it had; else with those of the new one
+    """
+    def __init__(
+        self,
+        offset: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        keep_normals: bool = False,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def keep_normals(self) -> bool:
+        """
+        the surface is shaded with the normals that it had; else with those of the new one
+        """
+    @keep_normals.setter
+    def keep_normals(self, value: bool) -> None: ...
+    @property
+    def offset(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        by how much a vertex is moved, world space, metres
+        """
+    @offset.setter
+    def offset(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+
 class AovShader:
     """
     What the surface writes into the passes AOV Color and AOV Value.
@@ -4387,7 +4422,8 @@ class Material:
         | SubsurfaceShader
         | PrincipledHairShader
         | HairShader
-        | AovShader,
+        | AovShader
+        | DisplacementShader,
     ) -> int:
         """
         Appends a node and returns its index.
@@ -4456,6 +4492,7 @@ class Material:
         | PrincipledHairShader
         | HairShader
         | AovShader
+        | DisplacementShader
     ]:
         """
         Copies of the nodes.

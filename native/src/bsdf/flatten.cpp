@@ -103,6 +103,7 @@ void flatten(const EmissionShader& node, const Target& target, float weight) {
 
 void flatten(const VolumeShader&, const Target&, float) {}  // nothing on a surface
 void flatten(const AovShader&, const Target&, float) {}
+void flatten(const DisplacementShader&, const Target&, float) {}
 
 void flatten(const HoldoutShader&, const Target& target, float weight) { target.shading.holdout += weight; }
 

@@ -13,7 +13,8 @@ namespace basicrt {
 struct PreparedMaterial {
   Material material;                          // compiled
   Material transparent;                       // its transparent_part(), compiled
-  std::optional<Material> aovs;               // its aov_part(), compiled, where it has one
+  std::optional<Material> aovs;               // what it writes into passes, compiled, where it does
+  std::optional<Material> displacement;       // what moves vertices, compiled, where it does
   std::optional<SurfaceShading> front, back;  // of each side that is uniform
   std::optional<Medium> medium;               // what its volume is
   bool is_boundary = false;                   // it has a volume and no surface: light passes straight through
@@ -22,12 +23,17 @@ struct PreparedMaterial {
   PreparedMaterial(Material the_material, const Table<Texture>& textures);
 };
 
-// The material with nothing but what it writes into passes; nothing where that is nothing.
-[[nodiscard]] std::optional<Material> aov_part(const Material& material);
-
 // Calls visit(AovShader) for each, with constants for all inputs.
 void for_each_aov(const PreparedMaterial& prepared, const Table<Texture>& textures, const SurfacePoint& point, Vec3f wo,
                   const ShadingContext& context, const std::function<void(const AovShader&)>& visit);
+
+// By how much the material moves a vertex that is there, world space, and whether normals stay as they were.
+struct Displacement {
+  Vec3f offset{0.0f};
+  bool keeps_normals = true;
+};
+[[nodiscard]] Displacement displacement_at(const PreparedMaterial& prepared, const Table<Texture>& textures,
+                                           const SurfacePoint& point, const ShadingContext& context);
 
 // `context` is called for a ShadingContext where the material asks for more than the point.
 template <class ContextFunction>

@@ -41,6 +41,7 @@ struct Mesh {
   std::vector<std::vector<Vec3f>> motion_positions, motion_corner_normals;
 
   std::vector<MeshAttribute> attributes;  // those that materials ask for
+  std::vector<Vec3f> rest_positions;      // of a displaced mesh: where its vertices were, at time 0
   // Where the generated coordinates are 0, and how far from there they are 1.
   Vec3f texture_space_min{0.0f}, texture_space_size{1.0f};
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <future>
+#include <map>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -14,6 +15,7 @@
 #include "base/parallel_for.h"
 #include "bsdf/bsdf.h"
 #include "film/cryptomatte.h"
+#include "scene/displace.h"
 #include "scene/emission_estimate.h"
 #include "scene/lamp_estimate.h"
 #include "scene/mattes.h"
@@ -81,22 +83,27 @@ std::vector<bool> find_instanced_shapes(const Scene& scene) {
   return is_instanced;
 }
 
-// Copies the shapes and builds a tree for each, taking over from `previous` what has not changed. An empty mesh keeps its
-// place and is never instanced: whoever left out its instances (the reader of scene files) has told of it already.
-std::vector<ShapeTree> prepare_shapes(const Scene& scene, Report& report, PreparedScene& previous,
-                                      PreparedScene& prepared, const BvhConfig& config) {
+struct ShapeTrees {
+  std::vector<ShapeTree> trees;
+  std::vector<std::uint32_t> to_build;  // those that aren't yet there
+};
+
+// Copies the shapes, taking over from `previous` what has not changed, and its trees. An empty mesh keeps its place and is
+// never instanced: whoever left out its instances (the reader of scene files) has told of it already.
+ShapeTrees prepare_shapes(const Scene& scene, Report& report, PreparedScene& previous, PreparedScene& prepared,
+                          const BvhConfig& config) {
   const bool is_same_builder = previous.settings.bvh_builder == scene.settings.bvh_builder;
   const std::vector<bool> is_instanced = find_instanced_shapes(scene);
   std::vector<ShapeTree> previous_trees = previous.tracer.take_trees();
 
-  std::vector<ShapeTree> trees(scene.shapes.size());
-  std::vector<std::uint32_t> to_build;
+  ShapeTrees shapes{std::vector<ShapeTree>(scene.shapes.size()), {}};
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
     const std::uint64_t revision = scene.shapes.revision(Id<Shape>{i});
     prepared.shape_revisions.push_back(revision);
-    if (is_same_builder && i < previous_trees.size() && previous.shape_revisions[i] == revision) {
+    const bool is_known = i < std::min(previous_trees.size(), previous.shape_revisions.size());
+    if (is_same_builder && is_known && previous.shape_revisions[i] == revision) {
       prepared.shapes.push_back(std::move(previous.shapes[i]));
-      trees[i] = std::move(previous_trees[i]);
+      shapes.trees[i] = std::move(previous_trees[i]);
       continue;
     }
     if (config.progress) config.progress->advance(0);  // copying takes time too
@@ -106,10 +113,34 @@ std::vector<ShapeTree> prepare_shapes(const Scene& scene, Report& report, Prepar
       report.warn(item + (std::holds_alternative<Mesh>(prepared.shapes.back())
                               ? ": the mesh has no triangles and is left out"
                               : ": has nothing that can be hit and is left out"));
-    to_build.push_back(i);
+    shapes.to_build.push_back(i);
   }
-  build_trees(prepared.shapes, to_build, config, trees);
-  return trees;
+  return shapes;
+}
+
+// Gives instances whose materials displace them a mesh of their own. Those of the same mesh and materials share one, which
+// is the first one's.
+void displace_meshes(PreparedScene& prepared, ShapeTrees& shapes, int threads) {
+  std::map<std::pair<std::uint32_t, std::vector<std::uint32_t>>, std::uint32_t> displaced;
+  std::vector<std::uint32_t> shape_of;  // each instance's
+  for (std::uint32_t i = 0; i < prepared.instances.size(); ++i) {
+    const PreparedScene::PreparedInstance& instance = prepared.instances[i];
+    shape_of.push_back(instance.shape);
+    if (!is_displaced(prepared, instance)) continue;
+    const auto next = static_cast<std::uint32_t>(prepared.shapes.size());
+    const auto [known, is_new] = displaced.try_emplace({instance.shape, instance.materials}, next);
+    shape_of.back() = known->second;
+    if (!is_new) continue;
+    prepared.shapes.emplace_back(displaced_mesh(prepared, i, threads));
+    shapes.to_build.push_back(next);
+  }
+  shapes.trees.resize(prepared.shapes.size());
+  for (std::size_t i = 0; i < shape_of.size(); ++i) {
+    PreparedScene::PreparedInstance& instance = prepared.instances[i];
+    if (instance.shape == shape_of[i]) continue;
+    instance.shape = shape_of[i];
+    if (instance.needs_derivatives) instance.box = bounds(prepared.shapes[instance.shape]);
+  }
 }
 
 Material default_material() {
@@ -188,7 +219,8 @@ PreparedScene::PreparedInstance prepare_instance(const Scene& scene, const Prepa
   for (const std::uint32_t index : result.materials) {
     const PreparedMaterial& material = prepared.materials[index];
     result.needs_derivatives = result.needs_derivatives || needs_derivatives(material.material) ||
-                               (material.aovs && needs_derivatives(*material.aovs));
+                               (material.aovs && needs_derivatives(*material.aovs)) ||
+                               (material.displacement && needs_derivatives(*material.displacement));
   }
   if (result.needs_derivatives) result.box = bounds(prepared.shapes[result.shape]);
   if (shines(prepared, result)) result.shadow_kind = shadow_kind(prepared, instance.blocker_sets);
@@ -259,6 +291,7 @@ bool move_instances(const Scene& scene, PreparedScene& prepared, const BvhConfig
     if (is_empty(prepared.shapes[instance.shape.index])) return false;
     moved.push_back(prepare_instance(scene, prepared, instance));
     if (shines_or_scatters(prepared, moved.back()) || shines_or_scatters(prepared, prepared.instances[i]) ||
+        is_displaced(prepared, moved.back()) || moved.back().shape != prepared.instances[i].shape ||
         moved.back().is_shadow_catcher != prepared.instances[i].is_shadow_catcher)
       return false;
     moves.push_back({i, traced_instance(moved.back())});
@@ -398,10 +431,8 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     prepared_material.matte_id = matte_id(prepared_material.material.name);
 
   prepared.shadow_links = find_shadow_links(scene);
-  std::vector<ShapeTree> trees = prepare_shapes(scene, report, previous, prepared, config);
+  ShapeTrees shapes = prepare_shapes(scene, report, previous, prepared, config);
 
-  std::vector<TracedInstance> traced;
-  traced.reserve(scene.instances.size());
   prepared.instances.reserve(scene.instances.size());
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
@@ -410,16 +441,21 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
     if (is_empty(prepared.shapes[instance.shape.index])) continue;
     prepared.instances.push_back(prepare_instance(scene, prepared, instance));
     const PreparedScene::PreparedInstance& added = prepared.instances.back();
-    traced.push_back(traced_instance(added));
     const auto* mesh = std::get_if<Mesh>(&prepared.shapes[instance.shape.index]);
     prepared.has_moving_shapes = prepared.has_moving_shapes || !added.motion.empty() || (mesh && mesh->is_deforming());
     prepared.has_linked_emitters = prepared.has_linked_emitters || added.shadow_kind != ray_shadow;
   }
-  find_volumes(scene, prepared);
   for (const PreparedMaterial& prepared_material : prepared.materials)
     prepared.has_transparency = prepared.has_transparency || is_transparent(prepared_material.material);
-  prepared.tracer = Tracer(std::move(trees), std::move(traced), config);
   apply_view(prepared, *scene.camera, scene.settings);
+  displace_meshes(prepared, shapes, options.threads);
+  find_volumes(scene, prepared);
+  build_trees(prepared.shapes, shapes.to_build, config, shapes.trees);
+  std::vector<TracedInstance> traced;
+  traced.reserve(prepared.instances.size());
+  for (const PreparedScene::PreparedInstance& instance : prepared.instances)
+    traced.push_back(traced_instance(instance));
+  prepared.tracer = Tracer(std::move(shapes.trees), std::move(traced), config);
 
   const std::vector<Lamp> lamps = prepare_lamps(scene, prepared, options.threads);
   std::vector<EmissiveInstance> emitters;

@@ -488,10 +488,22 @@ struct AovShader {
   }
 };
 
+// Shows nothing, and need not be referred to: it moves the vertices of meshes. Several of them add up.
+struct DisplacementShader {
+  ColorInput offset{Color(0.0f)};
+  bool keeps_normals = false;
+  static constexpr std::string_view kind = "displacement";
+  static constexpr auto fields() {
+    return fields_of(field("offset", &DisplacementShader::offset, "by how much a vertex is moved, world space, metres"),
+                     field("keep_normals", &DisplacementShader::keeps_normals,
+                           "the surface is shaded with the normals that it had; else with those of the new one"));
+  }
+};
+
 using ShaderNode = std::variant<DiffuseShader, GlossyShader, ConductorShader, RefractionShader, GlassShader,
                                 TransparentShader, EmissionShader, HoldoutShader, PrincipledShader, VolumeShader,
                                 MixShader, AddShader, TranslucentShader, MetallicShader, SheenShader, ToonShader,
-                                SubsurfaceShader, PrincipledHairShader, HairShader, AovShader>;
+                                SubsurfaceShader, PrincipledHairShader, HairShader, AovShader, DisplacementShader>;
 
 // A node refers only to nodes before it, so there is no cycle. A Mix or Add input of no_node is black and opaque,
 // as an empty socket is in Blender.

@@ -25,9 +25,18 @@ Vec3f object_position(const Evaluator& in) {
   return placement ? Vec3f(placement->world_to_object.point(Vec3d(in.point.position))) : in.point.position;
 }
 
+// Where the place would be if the mesh were not displaced.
+Vec3f rest_position(const Evaluator& in) {
+  const Mesh* mesh = in.context.mesh;
+  if (mesh == nullptr || mesh->rest_positions.empty()) return object_position(in);
+  const auto corner = [&](int i) { return mesh->rest_positions[mesh->triangles[in.point.primitive][i]]; };
+  const Vec2f share = in.point.barycentrics;
+  return corner(0) * (1 - share.x - share.y) + corner(1) * share.x + corner(2) * share.y;
+}
+
 // In the mesh's texture space, which Blender lets run from 0 to 1 over the undeformed mesh.
 Vec3f generated(const Evaluator& in) {
-  const Vec3f place = object_position(in);
+  const Vec3f place = rest_position(in);
   if (!in.context.mesh) return place * 0.5f + Vec3f(0.5f);
   const Vec3f size = in.context.mesh->texture_space_size, from = place - in.context.mesh->texture_space_min;
   return {size.x != 0 ? from.x / size.x : 0, size.y != 0 ? from.y / size.y : 0, size.z != 0 ? from.z / size.z : 0};

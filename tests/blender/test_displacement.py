@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Displaced surfaces: where they are and which way they face, as in Cycles."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import bpy
+import pytest
+from addon.report import Report
+
+import basicrt
+from support.blender import add_node, export, place
+from support.surfaces import ball, compare, shining_material
+
+# The share of pixels at edges of triangles and of the ball.
+EDGES = 0.03
+
+
+def noise(tree: Any, coordinates: str = "Generated") -> Any:
+    made = add_node(tree, "ShaderNodeTexNoise", Scale=2.5)
+    source = tree.nodes.new("ShaderNodeTexCoord")
+    tree.links.new(source.outputs[coordinates], made.inputs["Vector"])
+    return made
+
+
+def displace(tree: Any, socket: Any, method: str) -> None:
+    sink = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(socket, sink.inputs["Displacement"])
+    bpy.data.materials[0].displacement_method = method
+
+
+def by_height(tree: Any, space: str = "OBJECT", coordinates: str = "Generated") -> Any:
+    node = add_node(tree, "ShaderNodeDisplacement", Scale=0.8, Midlevel=0.4)
+    node.space = space
+    tree.links.new(noise(tree, coordinates).outputs[0], node.inputs["Height"])
+    return node
+
+
+def fine_ball(is_smooth: bool = True) -> tuple[Any, Any, Any]:
+    tree, emission, made = ball(is_smooth)
+    made.modifiers.new("Fine", "SUBSURF").render_levels = 2
+    made.modifiers[0].levels = 2
+    return tree, emission, made
+
+
+def shown(tree: Any, name: str) -> Any:
+    """What pictures are of."""
+    geometry = tree.nodes.new("ShaderNodeNewGeometry")
+    return geometry.outputs[name]
+
+
+@pytest.mark.parametrize("value", ["Position", "Normal", "True Normal"])
+@pytest.mark.parametrize("is_smooth", [True, False])
+def test_displacement_by_a_height(value: str, is_smooth: bool, tmp_path: Path) -> None:
+    tree, emission, _made = fine_ball(is_smooth)
+    displace(tree, by_height(tree).outputs[0], "DISPLACEMENT")
+    tolerance, edges = (0.01, EDGES) if is_smooth or value == "Position" else (0.03, 2 * EDGES)
+    compare(tree, shown(tree, value), emission, tmp_path, tolerance, edges)
+
+
+@pytest.mark.parametrize("space", ["OBJECT", "WORLD"])
+def test_spaces_of_a_height(space: str, tmp_path: Path) -> None:
+    tree, emission, _made = ball()
+    displace(tree, by_height(tree, space).outputs[0], "DISPLACEMENT")
+    compare(tree, shown(tree, "Position"), emission, tmp_path, 0.01, EDGES)
+
+
+@pytest.mark.parametrize("value", ["Position", "Normal"])
+def test_displacement_and_bump(value: str, tmp_path: Path) -> None:
+    """A small one: Cycles has bumps on the surface as it was, BasicRT on the one that is."""
+    tree, emission, _made = fine_ball()
+    node = by_height(tree, coordinates="UV")
+    node.inputs["Scale"].default_value = 0.1
+    displace(tree, node.outputs[0], "BOTH")
+    compare(tree, shown(tree, value), emission, tmp_path, 0.03, EDGES)
+
+
+@pytest.mark.parametrize("space", ["OBJECT", "WORLD", "TANGENT"])
+def test_displacement_by_vectors(space: str, tmp_path: Path) -> None:
+    tree, emission, _made = ball()
+    node = add_node(tree, "ShaderNodeVectorDisplacement", Scale=0.7, Midlevel=0.3)
+    node.space = space
+    tree.links.new(noise(tree).outputs["Color"], node.inputs["Vector"])
+    displace(tree, node.outputs[0], "DISPLACEMENT")
+    compare(tree, shown(tree, "Position"), emission, tmp_path, 0.01, EDGES)
+
+
+def test_sums_of_displacements(tmp_path: Path) -> None:
+    tree, emission, _made = ball()
+    other = add_node(tree, "ShaderNodeVectorDisplacement", Vector=(0.2, 0.3, -0.2), Midlevel=0.0)
+    total = tree.nodes.new("ShaderNodeVectorMath")
+    tree.links.new(by_height(tree).outputs[0], total.inputs[0])
+    tree.links.new(other.outputs[0], total.inputs[1])
+    displace(tree, total.outputs[0], "DISPLACEMENT")
+    compare(tree, shown(tree, "Position"), emission, tmp_path, 0.01, EDGES)
+
+
+def test_texture_coordinates_are_those_of_the_undisplaced_surface(tmp_path: Path) -> None:
+    tree, emission, _made = fine_ball()
+    displace(tree, by_height(tree).outputs[0], "DISPLACEMENT")
+    source = tree.nodes.new("ShaderNodeTexCoord")
+    compare(tree, source.outputs["Generated"], emission, tmp_path, 0.01, EDGES)
+
+
+def test_the_parts_of_a_mesh_are_moved_by_their_own_materials(tmp_path: Path) -> None:
+    tree, emission, made = ball()
+    displace(tree, by_height(tree).outputs[0], "DISPLACEMENT")
+    plain, _tree, still = shining_material()
+    still.inputs["Color"].default_value = (0.2, 0.4, 0.6, 1)
+    made.data.materials.append(plain)
+    for index, polygon in enumerate(made.data.polygons):
+        polygon.material_index = int(index % 3 == 0)
+    compare(tree, shown(tree, "Position"), emission, tmp_path, 0.01, 2 * EDGES)
+
+
+def test_objects_of_one_mesh_and_other_materials_are_displaced_by_themselves() -> None:
+    tree, _emission, made = ball()
+    displace(tree, by_height(tree).outputs[0], "DISPLACEMENT")
+    twin = place(made.data, (3, 0, 0), name="Plain")
+    plain, _tree, _still = shining_material()
+    twin.material_slots[0].link = "OBJECT"
+    twin.material_slots[0].material = plain
+    report = Report()
+    scene = export(report)
+    assert not report.warnings
+    materials = [scene.materials[instance.materials[0]] for instance in scene.instances]
+    moved = [
+        any(isinstance(node, basicrt.DisplacementShader) for node in one.nodes) for one in materials
+    ]
+    assert sorted(moved) == [False, True, True]
+
+
+def test_adaptive_subdivision_is_told_of() -> None:
+    _tree, _emission, made = fine_ball()
+    modifier = made.modifiers[0]
+    if hasattr(modifier, "use_adaptive_subdivision"):
+        modifier.use_adaptive_subdivision = True
+    else:
+        bpy.context.scene.cycles.feature_set = "EXPERIMENTAL"
+        made.cycles.use_adaptive_subdivision = True
+    report = Report()
+    export(report)
+    told = [text for text in report.warnings if "Adaptive Subdivision" in text]
+    assert told == [
+        f'object "{made.name}": Adaptive Subdivision is not supported: its levels count'
+    ]
