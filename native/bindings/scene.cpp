@@ -130,6 +130,8 @@ void bind_instance(py::module_& m) {
           field("motion_transforms", &Instance::motion_transforms,
                 "object to world at further times, equally spaced: `transform` is when the shutter opens, the "
                 "last when it closes; matrices are linear between them")),
+      make_attribute(field("adjacent_transforms", &Instance::adjacent_transforms,
+                           "for the pass Vector: object to world one frame before and one frame after, or none")),
       make_attribute(field("holdout", &Instance::is_holdout, "a hole in the picture, for camera rays")),
       make_attribute(field("shadow_catcher", &Instance::is_shadow_catcher,
                            "the camera sees through it, darkened by the shadows of what is none")),
@@ -194,6 +196,11 @@ void register_scene(py::module_& m) {
           "camera", [](const BoundScene& self) { return self.scene().camera; },
           [](BoundScene& self, std::optional<Camera> camera) { self.edit().camera = std::move(camera); },
           "A copy of the camera, or None; assign to change it.")
+      .def_property(
+          "adjacent_cameras", [](const BoundScene& self) { return self.scene().adjacent_cameras; },
+          [](BoundScene& self, std::vector<Camera> cameras) { self.edit().adjacent_cameras = std::move(cameras); },
+          "For the pass Vector: copies of the cameras one frame before and one frame after, or none; assign to change "
+          "them.")
       .def(
           "validate", [](BoundScene& self) { validate(SceneLease(self).scene()); },
           "Raises SceneError naming the first item that can't be rendered, the rule and the value.")

@@ -27,7 +27,7 @@ std::vector<std::vector<Vec3f>> to_keys(const py::array_t<float>& array) {
 Mesh make_mesh(const ArrayLike& positions, const ArrayLike& triangles, const std::optional<ArrayLike>& corner_normals,
                const std::optional<ArrayLike>& uvs, const std::optional<ArrayLike>& material_slots,
                const std::optional<ArrayLike>& motion_positions, const std::optional<ArrayLike>& motion_corner_normals,
-               const std::vector<NamedArray>& attributes,
+               const std::optional<ArrayLike>& adjacent_positions, const std::vector<NamedArray>& attributes,
                const std::optional<std::array<std::array<float, 3>, 2>>& texture_space) {
   Mesh mesh;
   mesh.positions = to_vector<Vec3f>(float_array(positions, "positions", {{any_length, 3}}));
@@ -46,6 +46,8 @@ Mesh make_mesh(const ArrayLike& positions, const ArrayLike& triangles, const std
   if (motion_corner_normals)
     mesh.motion_corner_normals = to_keys(float_array(*motion_corner_normals, "motion_corner_normals",
                                                      {{any_length, count, 3, 3}, {any_length, 3 * count, 3}}));
+  if (adjacent_positions)
+    mesh.adjacent_positions = to_keys(float_array(*adjacent_positions, "adjacent_positions", {{2, vertex_count, 3}}));
   mesh.attributes = to_attributes(attributes, "Mesh.attributes");
   if (texture_space) {
     const auto& [least, size] = *texture_space;
@@ -82,14 +84,16 @@ positions (V, 3) float32, metres; triangles (T, 3) uint32, counter-clockwise see
 material_slots (T,) uint32, without them every triangle has slot 0. A mesh that deforms has motion_positions
 (K, V, 3) float32 and, where it has corner_normals, motion_corner_normals (K, T, 3, 3) or (K, 3T, 3) float32: those at K
 further times, equally spaced; the others are when the shutter opens, the last of these when it closes, and all is
-linear between them. attributes are (name, domain, values): domain "vertex", "corner" or "face", values (N, 3) float32 for
+linear between them. adjacent_positions (2, V, 3) float32 are for the pass Vector: one frame before and one frame
+after. attributes are (name, domain, values): domain "vertex", "corner" or "face", values (N, 3) float32 for
 each vertex, each corner of the triangles or each triangle. texture_space is where generated coordinates are 0, and how
 far from there they are 1. Other real (or integer) types are converted.
 Raises SceneError naming the array, the rule and the value.)")
       .def(py::init(&make_mesh), py::arg("positions"), py::arg("triangles"), py::kw_only(),
            py::arg("corner_normals") = py::none(), py::arg("uvs") = py::none(), py::arg("material_slots") = py::none(),
            py::arg("motion_positions") = py::none(), py::arg("motion_corner_normals") = py::none(),
-           py::arg("attributes") = std::vector<NamedArray>{}, py::arg("texture_space") = py::none())
+           py::arg("adjacent_positions") = py::none(), py::arg("attributes") = std::vector<NamedArray>{},
+           py::arg("texture_space") = py::none())
       .def_property_readonly(
           "positions",
           [](const py::object& self) {
@@ -135,6 +139,13 @@ Raises SceneError naming the array, the rule and the value.)")
             return key_views(mesh.motion_corner_normals, {static_cast<py::ssize_t>(mesh.triangles.size()), 3, 3}, self);
           },
           "(T, 3, 3) float32 for each further time; none where it doesn't deform or is flat")
+      .def_property_readonly(
+          "adjacent_positions",
+          [](const py::object& self) {
+            const auto& mesh = self.cast<const Mesh&>();
+            return key_views(mesh.adjacent_positions, {static_cast<py::ssize_t>(mesh.positions.size()), 3}, self);
+          },
+          "(V, 3) float32 of the frame before and the frame after; none where it doesn't deform from frame to frame")
       .def_property_readonly(
           "texture_space",
           [](const Mesh& self) {

@@ -70,6 +70,14 @@ def test_a_mesh_that_deforms_has_its_arrays_at_further_times() -> None:
     assert Mesh(POSITIONS, TRIANGLES, motion_positions=[]).motion_positions == []
 
 
+def test_a_mesh_knows_the_frames_before_and_after() -> None:
+    positions = np.stack([POSITIONS + 1, POSITIONS * 3])
+    mesh = Mesh(POSITIONS, TRIANGLES, adjacent_positions=positions)
+    assert np.array_equal(mesh.adjacent_positions, positions)
+    assert mesh.motion_positions == []
+    assert Mesh(POSITIONS, TRIANGLES).adjacent_positions == []
+
+
 @pytest.mark.parametrize("dtype", [np.float16, np.float64, np.int32, np.uint8, ">f4"])
 def test_positions_of_other_real_types_are_converted(dtype) -> None:
     assert np.array_equal(Mesh(POSITIONS.astype(dtype), TRIANGLES).positions, POSITIONS)
@@ -160,6 +168,10 @@ def test_a_mesh_may_be_empty() -> None:
         (
             {"motion_positions": [POSITIONS], "motion_corner_normals": [NORMALS]},
             "motion_corner_normals: must have as many keys as motion_positions",
+        ),
+        (
+            {"adjacent_positions": [POSITIONS]},
+            r"adjacent_positions: must have the shape \(2, 4, 3\), is \(1, 4, 3\)",
         ),
         ({"material_slots": [0]}, r"material_slots: must have the shape \(2,\), is \(1,\)"),
         ({"material_slots": [0, -1]}, r"material_slots\[1\]: must be in"),

@@ -146,7 +146,8 @@ class Mesh:
     material_slots (T,) uint32, without them every triangle has slot 0. A mesh that deforms has motion_positions
     (K, V, 3) float32 and, where it has corner_normals, motion_corner_normals (K, T, 3, 3) or (K, 3T, 3) float32: those at K
     further times, equally spaced; the others are when the shutter opens, the last of these when it closes, and all is
-    linear between them. attributes are (name, domain, values): domain "vertex", "corner" or "face", values (N, 3) float32 for
+    linear between them. adjacent_positions (2, V, 3) float32 are for the pass Vector: one frame before and one frame
+    after. attributes are (name, domain, values): domain "vertex", "corner" or "face", values (N, 3) float32 for
     each vertex, each corner of the triangles or each triangle. texture_space is where generated coordinates are 0, and how
     far from there they are 1. Other real (or integer) types are converted.
     Raises SceneError naming the array, the rule and the value.
@@ -161,6 +162,7 @@ class Mesh:
         material_slots: numpy.typing.ArrayLike | None = None,
         motion_positions: numpy.typing.ArrayLike | None = None,
         motion_corner_normals: numpy.typing.ArrayLike | None = None,
+        adjacent_positions: numpy.typing.ArrayLike | None = None,
         attributes: collections.abc.Sequence[tuple[str, str, numpy.typing.ArrayLike]] = [],
         texture_space: typing.Annotated[
             collections.abc.Sequence[
@@ -174,6 +176,11 @@ class Mesh:
         | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def adjacent_positions(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        (V, 3) float32 of the frame before and the frame after; none where it doesn't deform from frame to frame
+        """
     @property
     def attributes(self) -> list[tuple[str, str, numpy.typing.NDArray[numpy.float32]]]:
         """
@@ -6587,6 +6594,7 @@ class RenderSettings:
     mist_start: metres from the camera where the pass Mist begins; at least 0
     mist_depth: metres from there to where the mist is complete; at least 0
     mist_falloff: power of the share of that distance; above 0
+    background_vectors: the pass Vector shows how what is behind everything moves as the camera turns; otherwise it is not counted, and 0 where there is nothing else
     ao_distance: metres within which the pass Ambient Occlusion looks for surfaces; 0 is no limit; at least 0
     shutter_curve: how far the shutter is open at equally spaced times; none: wide open throughout; at least 0
     integrator: how light is computed
@@ -6635,6 +6643,7 @@ class RenderSettings:
         mist_start: float = 5.0,
         mist_depth: float = 25.0,
         mist_falloff: float = 2.0,
+        background_vectors: bool = True,
         ao_distance: float = 10.0,
         shutter_curve: collections.abc.Iterable[float] = [],
         integrator: str = "path",
@@ -6690,6 +6699,13 @@ class RenderSettings:
         """
     @ao_distance.setter
     def ao_distance(self, value: float) -> None: ...
+    @property
+    def background_vectors(self) -> bool:
+        """
+        the pass Vector shows how what is behind everything moves as the camera turns; otherwise it is not counted, and 0 where there is nothing else
+        """
+    @background_vectors.setter
+    def background_vectors(self, value: bool) -> None: ...
     @property
     def blur_glossy(self) -> float:
         """
@@ -7037,6 +7053,7 @@ class Instance:
     name: for messages and the passes CryptoObject
     visibility: RayKind bits: the rays that see it
     motion_transforms: object to world at further times, equally spaced: `transform` is when the shutter opens, the last when it closes; matrices are linear between them
+    adjacent_transforms: for the pass Vector: object to world one frame before and one frame after, or none
     holdout: a hole in the picture, for camera rays
     shadow_catcher: the camera sees through it, darkened by the shadows of what is none
     color: for materials that ask
@@ -7061,6 +7078,7 @@ class Instance:
         name: str = "",
         visibility: int = 4294967295,
         motion_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
+        adjacent_transforms: collections.abc.Iterable[numpy.typing.ArrayLike] = [],
         holdout: bool = False,
         shadow_catcher: bool = False,
         color: collections.abc.Sequence[float] | numpy.typing.ArrayLike = (1.0, 1.0, 1.0),
@@ -7078,6 +7096,15 @@ class Instance:
         blocker_sets: collections.abc.Iterable[int] | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def adjacent_transforms(self) -> list[numpy.typing.NDArray[numpy.float32]]:
+        """
+        for the pass Vector: object to world one frame before and one frame after, or none
+        """
+    @adjacent_transforms.setter
+    def adjacent_transforms(
+        self, value: collections.abc.Iterable[numpy.typing.ArrayLike]
+    ) -> None: ...
     @property
     def alpha(self) -> float:
         """
@@ -7384,6 +7411,36 @@ class Scene:
         """
         Raises SceneError naming the first item that can't be rendered, the rule and the value.
         """
+    @property
+    def adjacent_cameras(
+        self,
+    ) -> list[
+        PerspectiveCamera
+        | OrthographicCamera
+        | EquirectangularCamera
+        | FisheyeEquidistantCamera
+        | FisheyeEquisolidCamera
+        | FisheyePolynomialCamera
+        | CubemapFaceCamera
+        | CylindricalCamera
+    ]:
+        """
+        For the pass Vector: copies of the cameras one frame before and one frame after, or none; assign to change them.
+        """
+    @adjacent_cameras.setter
+    def adjacent_cameras(
+        self,
+        arg1: collections.abc.Sequence[
+            PerspectiveCamera
+            | OrthographicCamera
+            | EquirectangularCamera
+            | FisheyeEquidistantCamera
+            | FisheyeEquisolidCamera
+            | FisheyePolynomialCamera
+            | CubemapFaceCamera
+            | CylindricalCamera
+        ],
+    ) -> None: ...
     @property
     def camera(
         self,

@@ -16,6 +16,10 @@ Vec3f unit_change(Vec3f v, Vec3f change) {
   return (change - v * (dot(v, change) * scale * scale)) * scale;
 }
 
+const CameraBase& base_of(const Camera& camera) {
+  return std::visit([](const CameraBase& base) -> const CameraBase& { return base; }, camera);
+}
+
 }  // namespace
 
 PerspectiveCamera make_look_at_camera(Vec3f position, Vec3f look_at, Vec3f up, float fov, float aspect) {
@@ -120,6 +124,39 @@ std::optional<Ray> CameraView::panorama_ray(const Kind& camera, Vec2f pixel, Vec
     direction = normalize(direction * camera.focus_distance - offset);
   }
   return Ray{.origin = origin, .t_min = clip_near_, .direction = direction, .t_max = clip_far_, .kinds = ray_camera};
+}
+
+std::optional<Vec2f> CameraView::pixel_of_local(Vec3d local) const {
+  const auto find_place = [&]<class Kind>(const Kind& camera) -> std::optional<Vec2f> {
+    if constexpr (Panorama<Kind>) {
+      const double distance = length(local);
+      return distance > 0 ? camera.place_of(Vec3f(local * (1 / distance))) : std::nullopt;
+    } else {
+      const double depth = std::is_same_v<Kind, PerspectiveCamera> ? -local.z : 1;
+      return depth > 0 ? std::optional(Vec2f(Vec2d{local.x, local.y} * (1 / depth))) : std::nullopt;
+    }
+  };
+  const auto find_pixel = [&](const auto& camera) -> std::optional<Vec2f> {
+    const std::optional<Vec2f> place = find_place(camera);
+    if (!place) return std::nullopt;
+    return Vec2f{(place->x - camera.window_min.x) / step_.x, (place->y - camera.window_min.y) / step_.y};
+  };
+  return std::visit(find_pixel, camera_);
+}
+
+std::optional<Vec2f> CameraView::pixel_of(Vec3f position) const {
+  return pixel_of_local(inverse(TransformD(base_of(camera_).to_world)).point(Vec3d(position)));
+}
+
+std::optional<Vec2f> CameraView::pixel_of_direction(Vec3f direction) const {
+  if (std::holds_alternative<OrthographicCamera>(camera_)) return std::nullopt;
+  return pixel_of_local(inverse(TransformD(base_of(camera_).to_world)).vector(Vec3d(direction)));
+}
+
+float CameraView::period() const {
+  const bool goes_around =
+      std::holds_alternative<EquirectangularCamera>(camera_) || std::holds_alternative<CylindricalCamera>(camera_);
+  return goes_around ? 2 * pi / step_.x : 0;
 }
 
 RayDifferentials CameraView::differentials(Vec2f pixel) const {

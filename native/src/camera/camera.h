@@ -63,6 +63,14 @@ class CameraView {
 
   // How the ray there changes: the one through the middle of the aperture.
   [[nodiscard]] RayDifferentials differentials(Vec2f pixel) const;
+  // Where on the film a point is seen, beyond its edges too, whatever stands before it; the aperture counts as a point.
+  // Nothing where no place shows it: behind a flat camera.
+  [[nodiscard]] std::optional<Vec2f> pixel_of(Vec3f position) const;
+  // The same of what is infinitely far in a direction. Nothing where the camera is orthographic, too: it would be
+  // everywhere or nowhere.
+  [[nodiscard]] std::optional<Vec2f> pixel_of_direction(Vec3f direction) const;
+  // After how many pixels across a panorama shows the same again; 0: it doesn't.
+  [[nodiscard]] float period() const;
   // Depth along the viewing axis, as the Depth pass has it; of a panorama, the distance.
   [[nodiscard]] float depth(Vec3f position) const {
     return is_panorama_ ? length(position - position_) : dot(position - position_, axis_);
@@ -85,6 +93,8 @@ class CameraView {
   }
 
  private:
+  // `local` is in the camera's space.
+  [[nodiscard]] std::optional<Vec2f> pixel_of_local(Vec3d local) const;
   void set_window(const PerspectiveCamera& camera, Vec2f step);
   void set_window(const OrthographicCamera& camera, Vec2f step);
   template <Panorama Kind>

@@ -20,6 +20,14 @@ Bearing turned_about_axis(Vec2f place, float r, float angle, float slope) {
   return {.direction = {s * e.x, s * e.y, -c}, .dx = outward * e.x - around * e.y, .dy = outward * e.y + around * e.x};
 }
 
+float angle_from_axis(Vec3f direction) { return std::atan2(std::hypot(direction.x, direction.y), -direction.z); }
+
+// The place at the distance `r` from the origin, turned about it as the direction is about the axis.
+Vec2f place_about_axis(Vec3f direction, float r) {
+  const float across = std::hypot(direction.x, direction.y);
+  return across > 0 ? Vec2f{direction.x, direction.y} * (r / across) : Vec2f{r, 0};
+}
+
 // 1 / cos^2: the derivative of the tangent, given that.
 float tangent_slope(float tangent) { return 1 + tangent * tangent; }
 
@@ -33,11 +41,19 @@ Bearing EquirectangularCamera::bearing(Vec2f place) const {
           .dy = {-sin_latitude * sin_longitude, cos_latitude, sin_latitude * cos_longitude}};
 }
 
+std::optional<Vec2f> EquirectangularCamera::place_of(Vec3f direction) const {
+  return Vec2f{std::atan2(direction.x, -direction.z), std::atan2(direction.y, std::hypot(direction.x, direction.z))};
+}
+
 bool FisheyeEquidistantCamera::sees(Vec2f place) const { return distance_from_axis(place) <= 0.5f * fov; }
 
 Bearing FisheyeEquidistantCamera::bearing(Vec2f place) const {
   const float r = distance_from_axis(place);
   return turned_about_axis(place, r, r, 1);
+}
+
+std::optional<Vec2f> FisheyeEquidistantCamera::place_of(Vec3f direction) const {
+  return place_about_axis(direction, angle_from_axis(direction));
 }
 
 bool FisheyeEquisolidCamera::sees(Vec2f place) const {
@@ -52,13 +68,33 @@ Bearing FisheyeEquisolidCamera::bearing(Vec2f place) const {
   return turned_about_axis(place, r, 2 * std::asin(sine), 1 / (focal_length * cosine));
 }
 
+std::optional<Vec2f> FisheyeEquisolidCamera::place_of(Vec3f direction) const {
+  return place_about_axis(direction, 2 * focal_length * std::sin(0.5f * angle_from_axis(direction)));
+}
+
 bool FisheyePolynomialCamera::sees(Vec2f place) const {
   return std::abs(angle(distance_from_axis(place))) <= 0.5f * fov;
 }
 
 Bearing FisheyePolynomialCamera::bearing(Vec2f place) const {
   const float r = distance_from_axis(place);
-  return turned_about_axis(place, r, angle(r), k1 + r * (2 * k2 + r * (3 * k3 + r * 4 * k4)));
+  return turned_about_axis(place, r, angle(r), slope(r));
+}
+
+// By Newton's method, from where the distance would be were the angle linear in it.
+std::optional<Vec2f> FisheyePolynomialCamera::place_of(Vec3f direction) const {
+  constexpr int most_steps = 20;
+  constexpr float tolerance = 1e-6f;
+  const float wanted = angle_from_axis(direction);
+  float r = k1 != 0 ? (wanted - k0) / k1 : wanted;
+  for (int i = 0; i < most_steps; ++i) {
+    const float step = (angle(r) - wanted) / slope(r);
+    r -= step;
+    if (!std::isfinite(r)) return std::nullopt;
+    if (std::abs(step) <= tolerance * std::abs(r)) break;
+  }
+  if (!(r >= 0) || std::abs(angle(r) - wanted) > 1e-4f) return std::nullopt;
+  return place_about_axis(direction, r);
 }
 
 bool CubemapFaceCamera::sees(Vec2f place) const { return std::abs(place.x) < pi / 2 && std::abs(place.y) < pi / 2; }
@@ -68,9 +104,20 @@ Bearing CubemapFaceCamera::bearing(Vec2f place) const {
   return {.direction = {x, y, -1}, .dx = {tangent_slope(x), 0, 0}, .dy = {0, tangent_slope(y), 0}};
 }
 
+std::optional<Vec2f> CubemapFaceCamera::place_of(Vec3f direction) const {
+  if (!(direction.z < 0)) return std::nullopt;
+  return Vec2f{std::atan2(direction.x, -direction.z), std::atan2(direction.y, -direction.z)};
+}
+
 Bearing CylindricalCamera::bearing(Vec2f place) const {
   const float s = std::sin(place.x), c = std::cos(place.x);
   return {.direction = {s, place.y, -c}, .dx = {c, 0, s}, .dy = {0, 1, 0}};
+}
+
+std::optional<Vec2f> CylindricalCamera::place_of(Vec3f direction) const {
+  const float across = std::hypot(direction.x, direction.z);
+  if (!(across > 0)) return std::nullopt;
+  return Vec2f{std::atan2(direction.x, -direction.z), direction.y / across};
 }
 
 }  // namespace basicrt

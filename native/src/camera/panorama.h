@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cameras that bend straight lines: from a place in the window to a direction in the camera's space.
+// Cameras that bend straight lines: from a place in the window to a direction in the camera's space, and back.
 #pragma once
 
 #include <concepts>
+#include <optional>
 #include <string_view>
 
 #include "camera/camera_base.h"
@@ -15,6 +16,12 @@ struct Bearing {
   Vec3f dx, dy;  // its derivatives by the place in the window
 };
 
+// Each has:
+//   bool sees(Vec2f place)                            whether there is a picture
+//   Bearing bearing(Vec2f place)                      the direction that is seen there
+//   std::optional<Vec2f> place_of(Vec3f direction)    where in the window one of unit length would be seen, beyond its
+//                                                     edges too; nothing where no place shows it
+
 // Longitude and latitude: (0, 0) is straight ahead, longitude grows to the right.
 struct EquirectangularCamera : CameraBase {
   EquirectangularCamera() {
@@ -23,6 +30,7 @@ struct EquirectangularCamera : CameraBase {
   }
   [[nodiscard]] bool sees(Vec2f) const { return true; }
   [[nodiscard]] Bearing bearing(Vec2f place) const;
+  [[nodiscard]] std::optional<Vec2f> place_of(Vec3f direction) const;
   static constexpr std::string_view kind = "equirectangular";
   static constexpr auto fields() {
     return camera_fields<EquirectangularCamera>("lowest longitude and latitude, radians",
@@ -39,6 +47,7 @@ struct FisheyeEquidistantCamera : CameraBase {
   float fov = pi;
   [[nodiscard]] bool sees(Vec2f place) const;
   [[nodiscard]] Bearing bearing(Vec2f place) const;
+  [[nodiscard]] std::optional<Vec2f> place_of(Vec3f direction) const;
   static constexpr std::string_view kind = "fisheye_equidistant";
   static constexpr auto fields() {
     using C = FisheyeEquidistantCamera;
@@ -54,6 +63,7 @@ struct FisheyeEquisolidCamera : CameraBase {
   float focal_length = 0.7071068f;
   [[nodiscard]] bool sees(Vec2f place) const;
   [[nodiscard]] Bearing bearing(Vec2f place) const;
+  [[nodiscard]] std::optional<Vec2f> place_of(Vec3f direction) const;
   static constexpr std::string_view kind = "fisheye_equisolid";
   static constexpr auto fields() {
     using C = FisheyeEquisolidCamera;
@@ -69,8 +79,10 @@ struct FisheyePolynomialCamera : CameraBase {
   float fov = pi;
   float k0 = 0, k1 = 1, k2 = 0, k3 = 0, k4 = 0;
   [[nodiscard]] float angle(float r) const { return k0 + r * (k1 + r * (k2 + r * (k3 + r * k4))); }
+  [[nodiscard]] float slope(float r) const { return k1 + r * (2 * k2 + r * (3 * k3 + r * 4 * k4)); }
   [[nodiscard]] bool sees(Vec2f place) const;
   [[nodiscard]] Bearing bearing(Vec2f place) const;
+  [[nodiscard]] std::optional<Vec2f> place_of(Vec3f direction) const;
   static constexpr std::string_view kind = "fisheye_polynomial";
   static constexpr auto fields() {
     using C = FisheyePolynomialCamera;
@@ -91,6 +103,7 @@ struct CubemapFaceCamera : CameraBase {
   }
   [[nodiscard]] bool sees(Vec2f place) const;
   [[nodiscard]] Bearing bearing(Vec2f place) const;
+  [[nodiscard]] std::optional<Vec2f> place_of(Vec3f direction) const;
   static constexpr std::string_view kind = "cubemap_face";
   static constexpr auto fields() {
     return camera_fields<CubemapFaceCamera>("lower left corner, angles from the axis, radians",
@@ -106,6 +119,7 @@ struct CylindricalCamera : CameraBase {
   }
   [[nodiscard]] bool sees(Vec2f) const { return true; }
   [[nodiscard]] Bearing bearing(Vec2f place) const;
+  [[nodiscard]] std::optional<Vec2f> place_of(Vec3f direction) const;
   static constexpr std::string_view kind = "cylindrical";
   static constexpr auto fields() {
     return camera_fields<CylindricalCamera>("lowest longitude, radians, and height, in radii",
@@ -116,6 +130,7 @@ struct CylindricalCamera : CameraBase {
 template <class Kind>
 concept Panorama = requires(const Kind& kind) {
   { kind.bearing(Vec2f{}) } -> std::same_as<Bearing>;
+  { kind.place_of(Vec3f{}) } -> std::same_as<std::optional<Vec2f>>;
 };
 
 }  // namespace basicrt

@@ -18,6 +18,7 @@ enum class Pass : std::uint8_t {
   normal,
   mist,
   position,
+  vector,
   uv,
   object_index,
   material_index,
@@ -58,6 +59,7 @@ enum class PassRule : std::uint8_t {
   mean,   //
   light,  // the mean of what the integrator filed, divided by the pass `color` where there is one
   first,  // that of the first sample that hits anything
+  some,   // the mean of the samples that say something: those record a 1 after their values
   matte,  // ids ranked by coverage
 };
 
@@ -69,6 +71,11 @@ struct PassInfo {
   PassRule rule = PassRule::mean;
   std::optional<Pass> color = {};
 };
+
+// How many numbers a sample has of it.
+constexpr int recorded_size(const PassInfo& info) {
+  return static_cast<int>(info.channels.size()) + (info.rule == PassRule::some ? 1 : 0);
+}
 
 inline constexpr int matte_passes = 8;  // of each kind
 
@@ -101,6 +108,7 @@ inline constexpr std::array passes = {
     PassInfo{Pass::normal, "Normal", "XYZ", 0, PassRule::own},
     PassInfo{Pass::mist, "Mist", "Z", 1, PassRule::own},
     PassInfo{Pass::position, "Position", "XYZ", 0, PassRule::first},
+    PassInfo{Pass::vector, "Vector", "XYZW", 0, PassRule::some},
     PassInfo{Pass::uv, "UV", "UVA"},
     PassInfo{Pass::object_index, "Object Index", "X", 0, PassRule::first},
     PassInfo{Pass::material_index, "Material Index", "X", 0, PassRule::first},
@@ -245,6 +253,22 @@ struct PassLayout {
     if (info.color) recorded.enable(*info.color);
   }
   return recorded;
+}
+
+// Where a recorded pass lies among a sample's numbers, and how many those are.
+[[nodiscard]] constexpr int recorded_offset(PassLayout recorded, Pass pass) {
+  int offset = 0;
+  for (const PassInfo& info : passes) {
+    if (info.pass == pass) break;
+    if (recorded.has(info.pass)) offset += recorded_size(info);
+  }
+  return offset;
+}
+[[nodiscard]] constexpr int recorded_count(PassLayout recorded) {
+  int count = 0;
+  for (const PassInfo& info : passes)
+    if (recorded.has(info.pass)) count += recorded_size(info);
+  return count;
 }
 
 }  // namespace basicrt

@@ -15,7 +15,8 @@ namespace {
 std::vector<bool> find_first_hit_values(PassLayout recorded) {
   std::vector<bool> is_first;
   for (const PassInfo& info : passes)
-    if (recorded.has(info.pass)) is_first.insert(is_first.end(), info.channels.size(), info.rule == PassRule::first);
+    if (recorded.has(info.pass))
+      is_first.insert(is_first.end(), static_cast<std::size_t>(recorded_size(info)), info.rule == PassRule::first);
   return is_first;
 }
 
@@ -26,7 +27,7 @@ TileAccumulator::TileAccumulator(PixelRect rect, PassLayout layout, AccumulatorO
       layout_(layout),
       recorded_(recorded_passes(layout)),
       options_(options),
-      value_count_(static_cast<std::size_t>(recorded_.channel_count())),
+      value_count_(static_cast<std::size_t>(recorded_count(recorded_))),
       is_first_(find_first_hit_values(recorded_)),
       pixels_(static_cast<std::size_t>(rect.width) * rect.height),
       negative_(options.negative_mass > 0 ? pixel_count() : 0),
@@ -35,7 +36,8 @@ TileAccumulator::TileAccumulator(PixelRect rect, PassLayout layout, AccumulatorO
       negative_values_(negative_.size() * value_count_),
       mattes_(layout.has(PassRule::matte) ? pixel_count() * matte_kinds : 0) {
   for (const PassInfo& info : passes)
-    value_offsets_[static_cast<std::size_t>(info.pass)] = static_cast<std::size_t>(recorded_.offset(info.pass));
+    value_offsets_[static_cast<std::size_t>(info.pass)] =
+        static_cast<std::size_t>(recorded_offset(recorded_, info.pass));
   sum_count_ = 0;
   if (!pixels_.empty()) visit_sums(0, [&](float&) { ++sum_count_; });
   if (options.samples > sample_block) exact_.resize(pixel_count() * sum_count_);
@@ -196,6 +198,17 @@ float TileAccumulator::mean_value(std::size_t index, Pass pass, std::size_t chan
   return positive == 0 ? n : p + (p - n) * options_.negative_mass;
 }
 
+// Without what a filter's negative lobes see: the mean of few samples would be out of all bounds.
+float TileAccumulator::mean_of_some(std::size_t index, const PassInfo& info, std::size_t channel) const {
+  const std::size_t place = index * value_count_ + value_offsets_[static_cast<std::size_t>(info.pass)];
+  for (const std::vector<float>* values : {&values_, &negative_values_}) {
+    if (values->empty()) continue;
+    const float count = (*values)[place + info.channels.size()];
+    if (count > 0) return (*values)[place + channel] / count;
+  }
+  return 0;
+}
+
 // The share of catchers' light that others leave.
 Color TileAccumulator::catcher_share(std::size_t index) const {
   if (catchers_.empty()) return Color(1.0f);
@@ -222,7 +235,7 @@ void TileAccumulator::write_values(const PassInfo& info, std::size_t index, floa
       out[c] = values_[index * value_count_ + value_offsets_[static_cast<std::size_t>(info.pass)] + c];
       continue;
     }
-    out[c] = mean_value(index, info.pass, c);
+    out[c] = info.rule == PassRule::some ? mean_of_some(index, info, c) : mean_value(index, info.pass, c);
     if (!info.color) continue;
     const float color = mean_value(index, *info.color, c);
     out[c] = color != 0 ? out[c] / color : 0;

@@ -121,6 +121,7 @@ class TileAccumulator {
   void fold_block(std::size_t index);
   void sum_blocks();
   [[nodiscard]] float mean_value(std::size_t index, Pass pass, std::size_t channel) const;
+  [[nodiscard]] float mean_of_some(std::size_t index, const PassInfo& info, std::size_t channel) const;
   void write_values(const PassInfo& info, std::size_t index, float* out) const;
   void rank_mattes();  // by coverage, then by id
   void write_mattes(const PassInfo& info, std::size_t index, float* out) const;

@@ -31,10 +31,11 @@ struct MatteSample {
 class PassValues {
  public:
   PassValues() { offsets_.fill(-1); }
-  explicit PassValues(PassLayout chosen) : width_(recorded_passes(chosen).channel_count()) {
+  explicit PassValues(PassLayout chosen) : width_(recorded_count(recorded_passes(chosen))) {
     const PassLayout recorded = recorded_passes(chosen);
     for (const PassInfo& info : passes)
-      offsets_[static_cast<std::size_t>(info.pass)] = recorded.has(info.pass) ? recorded.offset(info.pass) : -1;
+      offsets_[static_cast<std::size_t>(info.pass)] =
+          recorded.has(info.pass) ? recorded_offset(recorded, info.pass) : -1;
   }
 
   void begin(std::size_t samples) {
@@ -59,6 +60,13 @@ class PassValues {
   void add(std::uint32_t sample, Pass pass, Vec3f value, float alpha) {
     add(sample, pass, value);
     if (has(pass)) at(sample, pass)[3] += alpha;
+  }
+  // Of a pass whose mean is that of the samples that say something: this is one.
+  void add_one_of_some(std::uint32_t sample, Pass pass, std::array<float, 4> values) {
+    if (!has(pass)) return;
+    float* to = at(sample, pass);
+    for (std::size_t i = 0; i < values.size(); ++i) to[i] += values[i];
+    to[values.size()] += 1;
   }
   void add(const MatteSample& matte) { mattes_.push_back(matte); }
 

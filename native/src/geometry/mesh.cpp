@@ -57,6 +57,22 @@ void validate_motion(const Mesh& mesh, std::string_view item) {
   }
 }
 
+void validate_adjacent(const Mesh& mesh, std::string_view item) {
+  const std::size_t count = mesh.adjacent_positions.size();
+  if (count != 0 && count != 2)
+    throw SceneError(
+        std::string(item) + ".adjacent_positions",
+        "must be those of two frames, the one before and the one after, or none, has " + std::to_string(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t length = mesh.adjacent_positions[i].size();
+    if (length != mesh.positions.size())
+      throw SceneError(array_entry(item, "adjacent_positions", i),
+                       "has " + std::to_string(length) + " vectors, but there are " +
+                           std::to_string(mesh.positions.size()) + " positions");
+    check_finite(item, "adjacent_positions[" + std::to_string(i) + "]", mesh.adjacent_positions[i]);
+  }
+}
+
 }  // namespace
 
 Bounds3f bounds(const Mesh& mesh) {
@@ -84,6 +100,7 @@ void validate(const Mesh& mesh, std::string_view item) {
   check_finite(item, "corner_normals", mesh.corner_normals);
   check_finite(item, "uvs", mesh.uvs);
   validate_motion(mesh, item);
+  validate_adjacent(mesh, item);
   for (const MeshAttribute& attribute : mesh.attributes) {
     const std::size_t expected = attribute.domain == AttributeDomain::vertex ? mesh.positions.size()
                                  : attribute.domain == AttributeDomain::face ? count

@@ -40,6 +40,9 @@ struct Mesh {
   // spaced; the arrays above are of time 0, the last ones of time 1, and between two of them all is linear.
   std::vector<std::vector<Vec3f>> motion_positions, motion_corner_normals;
 
+  // For the pass Vector: where the vertices were one frame before and will be one frame after. None, or these two.
+  std::vector<std::vector<Vec3f>> adjacent_positions;
+
   std::vector<MeshAttribute> attributes;  // those that materials ask for
   std::vector<Vec3f> rest_positions;      // of a displaced mesh: where its vertices were, at time 0
   // Where the generated coordinates are 0, and how far from there they are 1.

@@ -58,6 +58,11 @@ class Integrator {
     if (recorder_.is_active()) recorder_.record_first_hit(index, point);
   }
 
+  // `sample` has not seen anything, and here goes on for ever.
+  void note_background(std::uint32_t index, const Ray& ray, const PixelSample& sample) {
+    if (recorder_.is_active() && !sample.has_hit) recorder_.record_background(index, ray);
+  }
+
   PassRecorder recorder_;
 };
 

@@ -38,9 +38,12 @@ void IntersectionTest::shade(std::span<PixelSample> samples, bool is_camera_ray)
   points_.begin();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     if (i == points_.end()) find_points(i);
-    if (!hits_[i].is_hit()) continue;
     Path& path = paths_[i];
     const Ray& ray = rays_[i];
+    if (!hits_[i].is_hit()) {
+      if (is_camera_ray) note_background(path.sample, ray, samples[path.sample]);
+      continue;
+    }
     const SurfacePoint& point = points_[i];
     PixelSample& sample = samples[path.sample];
     sample.alpha = 1;

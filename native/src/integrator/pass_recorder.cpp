@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <variant>
+
+#include "geometry/motion.h"
 
 namespace basicrt {
 namespace {
@@ -34,6 +37,36 @@ const Mesh* mesh_of(const PreparedScene& scene, const SurfacePoint& point) {
 
 CameraView view_at(const PreparedScene& scene, float time) {
   return scene.moving_camera.is_moving() ? scene.moving_camera.at(time) : scene.view;
+}
+
+// Where a point of a surface is one frame before (0) or after (1).
+Vec3f adjacent_position(const PreparedScene& scene, const SurfacePoint& point, std::size_t frame) {
+  const PreparedScene::PreparedInstance& instance = scene.instances[point.instance];
+  const Mesh* mesh = mesh_of(scene, point);
+  const bool deforms = mesh != nullptr && !mesh->adjacent_positions.empty();
+  if (!deforms && instance.adjacent.empty()) return point.position;
+  const TransformD now =
+      instance.motion.empty() ? instance.placement.object_to_world : transform_at(instance.motion, point.time);
+  Vec3d local;
+  if (deforms) {
+    const std::vector<Vec3f>& positions = mesh->adjacent_positions[frame];
+    const std::array<std::uint32_t, 3>& corners = mesh->triangles[point.primitive];
+    const double u = point.barycentrics.x, v = point.barycentrics.y;
+    local = Vec3d(positions[corners[0]]) * (1 - u - v) + Vec3d(positions[corners[1]]) * u +
+            Vec3d(positions[corners[2]]) * v;
+  } else {
+    local = inverse(now).point(Vec3d(point.position));
+  }
+  return Vec3f((instance.adjacent.empty() ? now : instance.adjacent[frame]).point(local));
+}
+
+// From one place on the film to another, in pixels; none where one of them is nowhere.
+Vec2f film_way(std::optional<Vec2f> from, std::optional<Vec2f> to, float period) {
+  if (!from || !to) return {0, 0};
+  Vec2f way = *to - *from;
+  if (!std::isfinite(way.x) || !std::isfinite(way.y)) return {0, 0};
+  if (period > 0) way.x -= period * std::round(way.x / period);  // the shorter way around
+  return way;
 }
 
 // How much there is to be seen of what is so far away, for all that is in between.
@@ -85,13 +118,38 @@ void PassRecorder::begin(std::size_t samples) {
   if (records_light_) shares_.assign(samples, {});
 }
 
+// As Cycles has it: from here to where it was, and from where it will be to here. `film_place` is that of what is seen, to
+// a view: one frame before (0), now (nothing) or one frame after (1).
+template <class FilmPlace>
+void PassRecorder::record_motion(std::uint32_t sample, float time, FilmPlace&& film_place) {
+  const CameraView now = view_at(scene_, time);
+  const std::optional<Vec2f> here = film_place(now, std::nullopt);
+  const auto way = [&](std::size_t frame) {
+    const CameraView& view = scene_.adjacent_views.empty() ? now : scene_.adjacent_views[frame];
+    return film_way(here, film_place(view, std::optional(frame)), now.period());
+  };
+  const Vec2f before = way(0), after = way(1);
+  values_.add_one_of_some(sample, Pass::vector, {before.x, before.y, -after.x, -after.y});
+}
+
 void PassRecorder::record_first_hit(std::uint32_t sample, const SurfacePoint& point) {
   const PreparedScene::PreparedInstance& instance = scene_.instances[point.instance];
   values_.add(sample, Pass::position, point.position);
   values_.add(sample, Pass::object_index, static_cast<float>(instance.pass_index));
   values_.add(sample, Pass::material_index, static_cast<float>(scene_.material_of(point).material.pass_index));
+  if (values_.has(Pass::vector))
+    record_motion(sample, point.time, [&](const CameraView& view, std::optional<std::size_t> frame) {
+      return view.pixel_of(frame ? adjacent_position(scene_, point, *frame) : point.position);
+    });
   const Mesh* mesh = mesh_of(scene_, point);
   if (mesh == nullptr || !mesh->uvs.empty()) values_.add(sample, Pass::uv, Vec3f{point.uv.x, point.uv.y, 1});
+}
+
+void PassRecorder::record_background(std::uint32_t sample, const Ray& ray) {
+  if (!values_.has(Pass::vector) || !scene_.settings.has_background_vectors) return;
+  record_motion(sample, ray.time, [&](const CameraView& view, std::optional<std::size_t>) {
+    return view.pixel_of_direction(ray.direction);
+  });
 }
 
 void PassRecorder::record_seen(std::uint32_t sample, Vec3f wo, const SurfacePoint& point, const Bsdf& bsdf,

@@ -31,6 +31,8 @@ class PassRecorder {
 
   // Of the first thing that a sample sees.
   void record_first_hit(std::uint32_t sample, const SurfacePoint& point);
+  // Of a sample that sees nothing before `ray` leaves the scene.
+  void record_background(std::uint32_t sample, const Ray& ray);
   // Of whatever the camera sees, through transparent surfaces too. `wo` is where the path came from.
   void record_seen(std::uint32_t sample, Vec3f wo, const SurfacePoint& point, const Bsdf& bsdf, Color throughput);
   // For denoisers: of the first surface that is no perfect mirror or pane, by way of such.
@@ -79,6 +81,8 @@ class PassRecorder {
     bool is_direct;
     int light_group;
   };
+  template <class FilmPlace>
+  void record_motion(std::uint32_t sample, float time, FilmPlace&& film_place);
   void add_to_group(std::uint32_t sample, int light_group, Color radiance);
   void add(std::uint32_t sample, const Filing& filing, Color radiance);
 

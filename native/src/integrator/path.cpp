@@ -83,6 +83,7 @@ void PathIntegrator::shade(std::span<PixelSample> samples) {
       gather_lamps(path, ray, sample);
       gather_distant_lamps(path, ray, sample);
       gather_environment(path, ray, sample);
+      if (path.is_camera_ray) note_background(path.sample, ray, sample);
       continue;
     }
 

@@ -31,13 +31,21 @@ PerspectiveCamera read_look_at_camera(const JsonValue& camera, const RenderSetti
   return make_look_at_camera(position, look_at, up, fov * (pi / 180), aspect);
 }
 
+Camera read_camera_value(const JsonValue& camera, const RenderSettings& settings) {
+  if (camera.find("type")) return read_plain_variant<Camera>(camera);
+  return read_look_at_camera(camera, settings);
+}
+
 }  // namespace
 
 void read_camera(SceneReader& reader, const JsonValue& camera) {
-  if (camera.find("type"))
-    reader.scene.camera = read_plain_variant<Camera>(camera);
-  else
-    reader.scene.camera = read_look_at_camera(camera, reader.scene.settings);
+  reader.scene.camera = read_camera_value(camera, reader.scene.settings);
+}
+
+void read_adjacent_cameras(SceneReader& reader, const JsonValue& cameras) {
+  cameras.expect_array();
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    reader.scene.adjacent_cameras.push_back(read_camera_value(cameras.item(i), reader.scene.settings));
 }
 
 }  // namespace basicrt

@@ -11,13 +11,14 @@ namespace basicrt {
 namespace {
 
 // "shape", then what every object may have.
-constexpr std::array<std::string_view, 24> shape_object_keys = {"shape",
+constexpr std::array<std::string_view, 25> shape_object_keys = {"shape",
                                                                 "name",
                                                                 "material_name",
                                                                 "materials",
                                                                 "transform",
                                                                 "translate",
                                                                 "motion_transforms",
+                                                                "adjacent_transforms",
                                                                 "light",
                                                                 "visibility",
                                                                 "holdout",
@@ -48,6 +49,7 @@ Id<Shape> read_object_shape(SceneReader& reader, const JsonValue& object) {
 void read_placement(const JsonValue& object, Instance& instance) {
   read_optional(object, "transform", instance.object_to_world);
   read_optional(object, "motion_transforms", instance.motion_transforms);
+  read_optional(object, "adjacent_transforms", instance.adjacent_transforms);
   Vec3f translate;
   read_optional(object, "translate", translate);
   const auto move = [&](Transform& transform) {
@@ -55,6 +57,7 @@ void read_placement(const JsonValue& object, Instance& instance) {
   };
   move(instance.object_to_world);
   for (Transform& transform : instance.motion_transforms) move(transform);
+  for (Transform& transform : instance.adjacent_transforms) move(transform);
 }
 
 std::vector<Id<Material>> read_material_slots(const SceneReader& reader, const JsonValue& object) {

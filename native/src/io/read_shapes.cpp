@@ -35,7 +35,7 @@ std::vector<Element> read_elements(const JsonValue& object, std::string_view key
   return json ? read_elements<Element, count>(*json) : std::vector<Element>();
 }
 
-// An array of such arrays, one for each further time.
+// An array of such arrays, one for each time or frame.
 std::vector<std::vector<Vec3f>> read_keys(const JsonValue& object, std::string_view key) {
   std::vector<std::vector<Vec3f>> keys;
   const auto json = object.find(key);
@@ -45,10 +45,10 @@ std::vector<std::vector<Vec3f>> read_keys(const JsonValue& object, std::string_v
   return keys;
 }
 
-constexpr std::array<std::string_view, 10> inline_mesh_keys = {
-    "positions",         "triangles",         "corner_normals",        "uvs",
-    "material_slots",    "motion_positions",  "motion_corner_normals", "attributes",
-    "texture_space_min", "texture_space_size"};
+constexpr std::array<std::string_view, 11> inline_mesh_keys = {
+    "positions",      "triangles",         "corner_normals",        "uvs",
+    "material_slots", "motion_positions",  "motion_corner_normals", "adjacent_positions",
+    "attributes",     "texture_space_min", "texture_space_size"};
 
 std::vector<MeshAttribute> read_attributes(const JsonValue& attributes) {
   attributes.expect_array();
@@ -73,7 +73,8 @@ Mesh read_inline_mesh(const JsonValue& object) {
             .uvs = read_elements<Vec2f, 2>(object, "uvs"),
             .material_slots = {},
             .motion_positions = read_keys(object, "motion_positions"),
-            .motion_corner_normals = read_keys(object, "motion_corner_normals")};
+            .motion_corner_normals = read_keys(object, "motion_corner_normals"),
+            .adjacent_positions = read_keys(object, "adjacent_positions")};
   if (const auto slots = object.find("material_slots")) read_numbers(*slots, mesh.material_slots);
   if (const auto attributes = object.find("attributes")) mesh.attributes = read_attributes(*attributes);
   read_optional(object, "texture_space_min", mesh.texture_space_min);

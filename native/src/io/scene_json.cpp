@@ -22,6 +22,7 @@ constexpr std::array root_keys = {
     RootKey{"film", read_film},
     RootKey{"settings", read_settings},
     RootKey{"camera", read_camera},
+    RootKey{"adjacent_cameras", read_adjacent_cameras},
     RootKey{"images", read_images},
     RootKey{"textures", read_textures},
     RootKey{"materials", read_materials},

@@ -88,5 +88,6 @@ void read_integrator(SceneReader& reader, const JsonValue& integrator);
 void read_film(SceneReader& reader, const JsonValue& film);
 void read_settings(SceneReader& reader, const JsonValue& settings);
 void read_camera(SceneReader& reader, const JsonValue& camera);
+void read_adjacent_cameras(SceneReader& reader, const JsonValue& cameras);
 
 }  // namespace basicrt

@@ -154,6 +154,8 @@ Json write_mesh(const Mesh& mesh) {
     json["motion_positions"].push_back(write_array(positions));
   for (const std::vector<Vec3f>& normals : mesh.motion_corner_normals)
     json["motion_corner_normals"].push_back(write_array(normals));
+  for (const std::vector<Vec3f>& positions : mesh.adjacent_positions)
+    json["adjacent_positions"].push_back(write_array(positions));
   write_attributes(mesh.attributes, json);
   if (mesh.texture_space_min != Vec3f(0.0f) || mesh.texture_space_size != Vec3f(1.0f)) {
     json["texture_space_min"] = write(mesh.texture_space_min);
@@ -198,6 +200,7 @@ Json write_instance(const Instance& instance, const SceneKeys& keys) {
   json["shape"] = keys.shapes.at(instance.shape.index);
   json["transform"] = write(instance.object_to_world);
   if (!instance.motion_transforms.empty()) json["motion_transforms"] = write(instance.motion_transforms);
+  if (!instance.adjacent_transforms.empty()) json["adjacent_transforms"] = write(instance.adjacent_transforms);
   if (!instance.materials.empty()) json["materials"] = Json::array();
   for (const Id<Material> id : instance.materials)
     json["materials"].push_back(id.is_valid() ? Json(keys.materials.at(id.index)) : Json(nullptr));
@@ -257,6 +260,8 @@ std::string scene_to_json(const Scene& scene) {
 
   Json json = {{"settings", write_settings(scene.settings)}};
   if (scene.camera) json["camera"] = std::visit(write_kind, *scene.camera);
+  for (const Camera& camera : scene.adjacent_cameras)
+    json["adjacent_cameras"].push_back(std::visit(write_kind, camera));
   ImageWriter images;
   json["environment"] = write_environment(scene.environment, images);
   json["textures"] = Json::object();

@@ -167,6 +167,12 @@ std::vector<TransformD> motion_of(const Instance& instance) {
   return keys;
 }
 
+std::vector<TransformD> adjacent_of(const Instance& instance) {
+  std::vector<TransformD> transforms;
+  for (const Transform& transform : instance.adjacent_transforms) transforms.emplace_back(transform);
+  return transforms;
+}
+
 // What it chooses itself, and what comes of what it is.
 std::uint32_t traced_visibility(const Instance& instance, const PreparedScene& scene, bool is_linked_emitter) {
   std::uint32_t kinds = instance.visibility & ray_own_choice;
@@ -203,6 +209,7 @@ PreparedScene::PreparedInstance prepare_instance(const Scene& scene, const Prepa
   PreparedScene::PreparedInstance result{.shape = instance.shape.index,
                                          .placement = Placement{TransformD(instance.object_to_world)},
                                          .motion = motion_of(instance),
+                                         .adjacent = adjacent_of(instance),
                                          .materials = resolve_materials(instance, default_index),
                                          .info = instance.info,
                                          .has_inside = !std::holds_alternative<Curves>(scene.shapes[instance.shape]),
@@ -413,7 +420,8 @@ void set_window(PreparedScene& prepared, const Camera& camera, Vec2i film_size) 
 PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous, PrepareOptions options) {
   const BvhConfig config = bvh_config(scene.settings, options);
   if (!previous.instances.empty() && move_instances(scene, previous, config)) {
-    validate_view(*scene.camera, scene.settings);
+    validate_views(scene);
+    previous.adjacent_cameras = scene.adjacent_cameras;
     apply_view(previous, *scene.camera, scene.settings);
     return previous;
   }
@@ -447,6 +455,7 @@ PreparedScene prepare(const Scene& scene, Report& report, PreparedScene previous
   }
   for (const PreparedMaterial& prepared_material : prepared.materials)
     prepared.has_transparency = prepared.has_transparency || is_transparent(prepared_material.material);
+  prepared.adjacent_cameras = scene.adjacent_cameras;
   apply_view(prepared, *scene.camera, scene.settings);
   displace_meshes(prepared, shapes, options.threads);
   find_volumes(scene, prepared);
@@ -471,6 +480,8 @@ void apply_view(PreparedScene& prepared, const Camera& camera, const RenderSetti
   const Vec2i film_size{settings.width, settings.height};
   prepared.view = CameraView(camera, film_size);
   prepared.moving_camera = MovingCamera(camera, film_size);
+  prepared.adjacent_views.clear();
+  for (const Camera& adjacent : prepared.adjacent_cameras) prepared.adjacent_views.emplace_back(adjacent, film_size);
   prepared.has_motion = prepared.has_moving_shapes || prepared.moving_camera.is_moving();
   prepared.world_to_camera = prepared.view.world_to_camera();
   set_window(prepared, camera, film_size);

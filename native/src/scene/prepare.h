@@ -25,6 +25,7 @@ struct PreparedScene {
     std::uint32_t shape = 0;
     Placement placement;
     std::vector<TransformD> motion;        // object to world over time, instead of the placement; none: it stands still
+    std::vector<TransformD> adjacent;      // object to world one frame before and after, or none
     std::vector<std::uint32_t> materials;  // for each slot, an index into `materials`
     bool needs_derivatives = false;        // one of the materials does
     ObjectInfo info;
@@ -42,8 +43,10 @@ struct PreparedScene {
     std::uint32_t shadow_kind = ray_shadow;  // RayKind bits of shadow rays towards it
   };
 
-  CameraView view;             // of a camera that stands still
-  MovingCamera moving_camera;  // of one that moves
+  CameraView view;                       // of a camera that stands still
+  MovingCamera moving_camera;            // of one that moves
+  std::vector<Camera> adjacent_cameras;  // one frame before and one after, or none
+  std::vector<CameraView> adjacent_views;
   TransformD world_to_camera;  // when the shutter opens; z points where the camera looks
   std::optional<CameraWindow> window;
   // How wide a pixel in the middle is at the camera, and how much wider with each metre.

@@ -29,6 +29,8 @@ struct Instance {
   // Object to world at further times: equally spaced, `object_to_world` being of time 0, the last of time 1. Between
   // two of them matrices are linear.
   std::vector<Transform> motion_transforms;
+  // For the pass Vector: object to world one frame before and one frame after. None, or these two.
+  std::vector<Transform> adjacent_transforms;
   bool is_holdout = false;         // a hole in the picture, for camera rays
   bool is_shadow_catcher = false;  // the camera sees through it, to where it darkens by others' shadows
   ObjectInfo info;                 // for materials that ask
@@ -50,6 +52,8 @@ struct Scene {
   Environment environment;
   Id<Material> world_volume;  // whose volume fills all space, within shapes too; none: nothing does
   std::optional<Camera> camera;
+  std::vector<Camera>
+      adjacent_cameras;  // for the pass Vector: one frame before and one frame after. None, or these two
   RenderSettings settings;
 };
 
@@ -61,5 +65,7 @@ void validate_description(const Scene& scene);
 void validate_instance(const Scene& scene, Id<Instance> id);
 // The camera and the settings alone.
 void validate_view(const Camera& camera, const RenderSettings& settings);
+// The same of a scene, and the cameras of the frames beside it.
+void validate_views(const Scene& scene);
 
 }  // namespace basicrt

@@ -47,6 +47,7 @@ struct RenderSettings {
   // The pass Mist: it begins and is complete so many metres from the camera; the power of the share between them.
   float mist_start = 5, mist_depth = 25, mist_falloff = 2;
   float ao_distance = 10;  // metres within which the pass Ambient Occlusion looks for surfaces; 0 is no limit
+  bool has_background_vectors = true;  // the pass Vector shows how what is behind everything moves as the camera turns
   // How far the shutter is open at equally spaced times from 0 to 1, linear between them; none: wide open throughout.
   std::vector<float> shutter_curve;
 
@@ -100,6 +101,9 @@ struct RenderSettings {
         field("mist_start", &S::mist_start, "metres from the camera where the pass Mist begins", at_least(0)),
         field("mist_depth", &S::mist_depth, "metres from there to where the mist is complete", at_least(0)),
         field("mist_falloff", &S::mist_falloff, "power of the share of that distance", above(0)),
+        field("background_vectors", &S::has_background_vectors,
+              "the pass Vector shows how what is behind everything moves as the camera turns; otherwise it is not "
+              "counted, and 0 where there is nothing else"),
         field("ao_distance", &S::ao_distance,
               "metres within which the pass Ambient Occlusion looks for surfaces; 0 is no limit", at_least(0)),
         field("shutter_curve", &S::shutter_curve,

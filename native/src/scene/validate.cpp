@@ -205,6 +205,12 @@ std::vector<Bounds3f> validate_shapes(const Scene& scene) {
   return shape_bounds;
 }
 
+void check_adjacent_count(std::size_t count, const std::string& item) {
+  if (count != 0 && count != 2)
+    throw SceneError(
+        item, "must be those of two frames, the one before and the one after, or none, has " + std::to_string(count));
+}
+
 void validate_reach(const Bounds3f& world_bounds, const std::string& item) {
   const float reach = std::max(max_component(abs(world_bounds.lower)), max_component(abs(world_bounds.upper)));
   if (!world_bounds.is_empty() && !(reach <= largest_coordinate))
@@ -233,6 +239,10 @@ void validate_instance(const Scene& scene, std::uint32_t index, const std::vecto
     validate_transform(instance.motion_transforms[key], item + "." + entry("motion_transforms", key));
     validate_reach(transform_bounds(instance.motion_transforms[key], local), item);
   }
+  check_adjacent_count(instance.adjacent_transforms.size(), item + ".adjacent_transforms");
+  // They may well be flat: nothing is traced there.
+  for (std::size_t i = 0; i < instance.adjacent_transforms.size(); ++i)
+    validate_field(instance.adjacent_transforms[i], Range{}, item, entry("adjacent_transforms", i));
 }
 
 void validate_instances(const Scene& scene) {
@@ -255,12 +265,21 @@ void validate_lights(const Scene& scene) {
   if (scene.world_volume.is_valid()) validate_id(scene.world_volume, scene.materials, "world_volume", "materials");
 }
 
-template <class CameraKind>
-void validate_camera(const CameraKind& camera) {
-  validate_described(camera, "camera");
-  if (!(camera.window_min.x < camera.window_max.x && camera.window_min.y < camera.window_max.y))
-    throw SceneError("camera.window_max", "must be greater than window_min, in x and in y");
-  if (!(camera.clip_near < camera.clip_far)) throw SceneError("camera.clip_far", "must be greater than clip_near");
+void validate_camera(const Camera& any, const std::string& item) {
+  const auto validate_kind = [&](const auto& camera) {
+    validate_described(camera, item);
+    if (!(camera.window_min.x < camera.window_max.x && camera.window_min.y < camera.window_max.y))
+      throw SceneError(item + ".window_max", "must be greater than window_min, in x and in y");
+    if (!(camera.clip_near < camera.clip_far)) throw SceneError(item + ".clip_far", "must be greater than clip_near");
+  };
+  std::visit(validate_kind, any);
+}
+
+void validate_cameras(const Scene& scene) {
+  if (scene.camera) validate_camera(*scene.camera, "camera");
+  check_adjacent_count(scene.adjacent_cameras.size(), "adjacent_cameras");
+  for (std::size_t i = 0; i < scene.adjacent_cameras.size(); ++i)
+    validate_camera(scene.adjacent_cameras[i], entry("adjacent_cameras", i));
 }
 
 void validate_border(const RenderSettings& settings) {
@@ -317,7 +336,7 @@ void validate_settings(const RenderSettings& settings) {
 
 void validate_description(const Scene& scene) {
   validate_settings(scene.settings);
-  if (scene.camera) std::visit([](const auto& camera) { validate_camera(camera); }, *scene.camera);
+  validate_cameras(scene);
   validate_textures(scene);
   validate_materials(scene);
   validate_instances(scene);
@@ -331,7 +350,12 @@ void validate_instance(const Scene& scene, Id<Instance> id) { validate_instance(
 
 void validate_view(const Camera& camera, const RenderSettings& settings) {
   validate_settings(settings);
-  std::visit([](const auto& kind) { validate_camera(kind); }, camera);
+  validate_camera(camera, "camera");
+}
+
+void validate_views(const Scene& scene) {
+  validate_settings(scene.settings);
+  validate_cameras(scene);
 }
 
 void validate(const Scene& scene) {

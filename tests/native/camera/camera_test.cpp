@@ -60,6 +60,76 @@ TEST(Camera, orthographic_rays_are_parallel_and_start_on_the_window) {
   EXPECT_EQ(center.direction, lower_left.direction);
 }
 
+// Whatever the camera, and where its transform stretches too: what a ray meets is seen where the ray began.
+TEST(Camera, a_point_is_seen_where_its_ray_begins) {
+  Transform to_world;
+  to_world.rows = {{{0.8f, 0.6f, 0, 1}, {-1.2f, 1.6f, 0, 2}, {0, 0, 0.5f, 3}}};
+  PerspectiveCamera perspective;
+  perspective.window_min = {-2, -0.5f};  // shifted
+  OrthographicCamera orthographic;
+  EquirectangularCamera equirectangular;
+  equirectangular.window_min = {-1, -0.5f};
+  FisheyePolynomialCamera polynomial;
+  polynomial.k0 = 0.05f;
+  polynomial.k1 = 0.9f;
+  polynomial.k3 = 0.1f;
+  FisheyeEquisolidCamera mirror_ball;
+  mirror_ball.fov = 2 * pi;
+  mirror_ball.focal_length = 0.5f;
+  for (Camera camera : {Camera(perspective), Camera(orthographic), Camera(equirectangular),
+                        Camera(FisheyeEquidistantCamera{}), Camera(FisheyeEquisolidCamera{}), Camera(mirror_ball),
+                        Camera(polynomial), Camera(CubemapFaceCamera{}), Camera(CylindricalCamera{})}) {
+    std::visit([&](auto& kind) { kind.to_world = to_world; }, camera);
+    const CameraView view(camera, size);
+    for (const Vec2f pixel : {Vec2f{100, 50}, Vec2f{70.25f, 40.5f}, Vec2f{130, 65}, Vec2f{101, 49}}) {
+      const std::optional<Ray> ray = view.ray(pixel, {0.5f, 0.5f});
+      ASSERT_TRUE(ray);
+      const std::optional<Vec2f> seen = view.pixel_of(ray->at(7));
+      ASSERT_TRUE(seen) << "kind " << camera.index();
+      EXPECT_NEAR(seen->x, pixel.x, 2e-3f) << "kind " << camera.index();
+      EXPECT_NEAR(seen->y, pixel.y, 2e-3f) << "kind " << camera.index();
+    }
+  }
+}
+
+TEST(Camera, what_is_infinitely_far_is_seen_where_rays_go_its_way) {
+  const PerspectiveCamera perspective = make_look_at_camera({1, 2, 3}, {0, 0, 0}, {0, 1, 0}, 1, 2);
+  EquirectangularCamera panorama;
+  panorama.to_world = perspective.to_world;
+  for (const Camera& camera : {Camera(perspective), Camera(panorama)}) {
+    const CameraView view(camera, size);
+    const std::optional<Vec2f> seen = view.pixel_of_direction(view.ray({130, 65}, {0.5f, 0.5f})->direction * 3);
+    ASSERT_TRUE(seen);
+    EXPECT_NEAR(seen->x, 130, 2e-3f);
+    EXPECT_NEAR(seen->y, 65, 2e-3f);
+  }
+  EXPECT_FALSE(CameraView(perspective, size).pixel_of_direction({1, 2, 3}));
+  EXPECT_FALSE(CameraView(OrthographicCamera{}, size).pixel_of_direction({0, 0, -1}));
+}
+
+TEST(Camera, what_no_place_shows_is_nowhere) {
+  const Vec3f behind{1, 1, 2};
+  EXPECT_FALSE(CameraView(PerspectiveCamera{}, size).pixel_of(behind));
+  EXPECT_FALSE(CameraView(PerspectiveCamera{}, size).pixel_of({1, 1, 0}));
+  EXPECT_FALSE(CameraView(CubemapFaceCamera{}, size).pixel_of(behind));
+  EXPECT_FALSE(CameraView(EquirectangularCamera{}, size).pixel_of(Vec3f(0.0f)));
+  EXPECT_FALSE(CameraView(CylindricalCamera{}, size).pixel_of({0, 1, 0}));
+  FisheyePolynomialCamera limited;  // no angle above a half
+  limited.k2 = -0.5f;
+  EXPECT_FALSE(CameraView(limited, size).pixel_of(behind));
+  EXPECT_TRUE(CameraView(OrthographicCamera{}, size).pixel_of(behind));
+  EXPECT_TRUE(CameraView(EquirectangularCamera{}, size).pixel_of(behind));
+}
+
+TEST(Camera, panoramas_that_go_around_repeat_after_a_turn) {
+  EquirectangularCamera half;
+  half.window_min.x = 0;
+  EXPECT_FLOAT_EQ(CameraView(half, size).period(), 400);
+  EXPECT_FLOAT_EQ(CameraView(CylindricalCamera{}, size).period(), 200);
+  EXPECT_EQ(CameraView(FisheyeEquidistantCamera{}, size).period(), 0);
+  EXPECT_EQ(CameraView(PerspectiveCamera{}, size).period(), 0);
+}
+
 TEST(Camera, differentials_are_the_change_over_a_small_step_on_the_film) {
   constexpr float step = 1.0f / 16;
   const PerspectiveCamera perspective = make_look_at_camera({1, 2, 3}, {0, 0, 0}, {0, 1, 0}, 1, 2);

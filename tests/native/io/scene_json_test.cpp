@@ -287,6 +287,24 @@ TEST(SceneJson, what_moves_has_keys_and_a_translation_moves_them_all) {
   EXPECT_EQ(mesh.motion_positions[1][2], Vec3f(0, 1, 2));
 }
 
+TEST(SceneJson, frames_beside_this_one_have_transforms_positions_and_cameras) {
+  const Scene scene = scene_of(R"({
+    "adjacent_cameras": [{"type": "orthographic"}, {"position": [0, 0, 1], "look_at": [0, 0, 0], "fov": 45}],
+    "objects": [{"type": "mesh", "positions": [0, 0, 0, 1, 0, 0, 0, 1, 0], "triangles": [0, 1, 2],
+                 "adjacent_positions": [[0, 0, 1, 1, 0, 1, 0, 1, 1], [0, 0, 2, 1, 0, 2, 0, 1, 2]],
+                 "translate": [10, 0, 0],
+                 "adjacent_transforms": [[1, 0, 0, 1,  0, 1, 0, 2,  0, 0, 1, 3,  0, 0, 0, 1],
+                                         [0, 0, 0, 1,  0, 0, 0, 2,  0, 0, 0, 4,  0, 0, 0, 1]]}]})");
+  ASSERT_EQ(scene.adjacent_cameras.size(), 2u);
+  EXPECT_TRUE(std::holds_alternative<OrthographicCamera>(scene.adjacent_cameras[0]));
+  EXPECT_TRUE(std::holds_alternative<PerspectiveCamera>(scene.adjacent_cameras[1]));
+  ASSERT_EQ(scene.instances[0].adjacent_transforms.size(), 2u);
+  EXPECT_EQ(scene.instances[0].adjacent_transforms[1].column(3), Vec3f(11, 2, 4));
+  const Mesh& mesh = std::get<Mesh>(scene.shapes[0]);
+  ASSERT_EQ(mesh.adjacent_positions.size(), 2u);
+  EXPECT_EQ(mesh.adjacent_positions[1][2], Vec3f(0, 1, 2));
+}
+
 TEST(SceneJson, an_obj_file_that_two_objects_name_is_read_once) {
   const TemporaryFolder folder;
   folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

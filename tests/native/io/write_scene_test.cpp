@@ -30,6 +30,7 @@ Scene make_full_scene() {
   camera.clip_near = 1e-45f;  // denormal
   camera.motion_transforms = {camera.to_world, Transform{}};
   scene.camera = camera;
+  scene.adjacent_cameras = {camera, EquirectangularCamera{}};
   scene.environment.radiance = {0.1f, 16777216.0f, 3e38f};
 
   scene.textures.append(ConstantTexture{.color = {0.1f, 0.2f, 0.3f}});
@@ -84,7 +85,8 @@ Scene make_full_scene() {
            .uvs = {{0, 0}, {0.1f, 0}, {0, 0.7f}},
            .material_slots = {3},
            .motion_positions = {{{0.3f, 0, 0}, {1, 0, 1}, {0, 1, 0}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}},
-           .motion_corner_normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}}}});
+           .motion_corner_normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}}},
+           .adjacent_positions = {{{0.3f, 0, 0}, {1, 0, 1}, {0, 1, 0}}, {{0, 0, 2}, {1, 0, 0.1f}, {0, 1, 2}}}});
   scene.shapes.append(Sphere{.center = {0.1f, 0.2f, 0.3f}, .radius = 0.7f});
   Transform transform;
   transform.rows[0] = {2, 0, 0.1f, -1};
@@ -93,7 +95,8 @@ Scene make_full_scene() {
                           .object_to_world = transform,
                           .materials = {{3}, {}, {2}, {1}, {4}, {0}},
                           .visibility = ray_camera | ray_glossy,
-                          .motion_transforms = {Transform{}, transform}});
+                          .motion_transforms = {Transform{}, transform},
+                          .adjacent_transforms = {transform, Transform{}}});
   scene.instances.append({.name = "",
                           .shape = {1},
                           .object_to_world = {},
@@ -139,6 +142,7 @@ TEST(WriteScene, tables_keep_their_order_and_names) {
     EXPECT_EQ(loaded.instances[i].visibility, scene.instances[i].visibility);
     EXPECT_EQ(loaded.instances[i].object_to_world, scene.instances[i].object_to_world);
     EXPECT_EQ(loaded.instances[i].motion_transforms, scene.instances[i].motion_transforms);
+    EXPECT_EQ(loaded.instances[i].adjacent_transforms, scene.instances[i].adjacent_transforms);
   }
   const auto &mesh = std::get<Mesh>(scene.shapes[0]), &loaded_mesh = std::get<Mesh>(loaded.shapes[0]);
   EXPECT_EQ(loaded_mesh.positions, mesh.positions);
@@ -148,6 +152,9 @@ TEST(WriteScene, tables_keep_their_order_and_names) {
   EXPECT_EQ(loaded_mesh.material_slots, mesh.material_slots);
   EXPECT_EQ(loaded_mesh.motion_positions, mesh.motion_positions);
   EXPECT_EQ(loaded_mesh.motion_corner_normals, mesh.motion_corner_normals);
+  EXPECT_EQ(loaded_mesh.adjacent_positions, mesh.adjacent_positions);
+  ASSERT_EQ(loaded.adjacent_cameras.size(), 2u);
+  EXPECT_TRUE(std::holds_alternative<EquirectangularCamera>(loaded.adjacent_cameras[1]));
   EXPECT_EQ(std::get<ImageTexture>(loaded.textures[2]).image.pixels,
             std::get<ImageTexture>(scene.textures[2]).image.pixels);
   EXPECT_EQ(loaded.settings.seed, scene.settings.seed);

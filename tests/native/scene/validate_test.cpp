@@ -180,6 +180,29 @@ TEST(Validate, the_camera_s_window_and_clipping_are_not_empty) {
             "camera.clip_far: must be greater than clip_near");
 }
 
+TEST(Validate, there_is_a_frame_before_and_one_after_or_none) {
+  const std::string rule = ": must be those of two frames, the one before and the one after, or none, has ";
+  EXPECT_EQ(problem_after([](Scene& scene) { scene.adjacent_cameras = {PerspectiveCamera{}}; }),
+            "adjacent_cameras" + rule + "1");
+  const PerspectiveCamera narrow{{.window_min = {1, 0}, .window_max = {1, 2}}};
+  EXPECT_EQ(problem_after([&](Scene& scene) { scene.adjacent_cameras = {PerspectiveCamera{}, narrow}; }),
+            "adjacent_cameras[1].window_max: must be greater than window_min, in x and in y");
+  const auto problem_with = [](const std::vector<Transform>& transforms) {
+    return problem_after([&](Scene& scene) {
+      Instance instance = scene.instances[0];
+      instance.adjacent_transforms = transforms;
+      scene.instances.set({0}, instance);
+    });
+  };
+  Transform flat, endless;
+  flat.rows[2] = {0, 0, 0, 0};
+  endless.rows[0][3] = infinity;
+  EXPECT_EQ(problem_with({flat, flat}), "");
+  EXPECT_EQ(problem_with({flat, flat, flat}), "instances[0].adjacent_transforms" + rule + "3");
+  EXPECT_TRUE(problem_with({flat, endless}).starts_with("instances[0].adjacent_transforms[1]: must be "))
+      << problem_with({flat, endless});
+}
+
 TEST(Validate, a_sun_shines_somewhere) {
   EXPECT_EQ(problem_after([](Scene& scene) { scene.lights.append(SunLight{.direction = {0, 0, 0}}); }),
             "lights[0].direction: must not be zero");
