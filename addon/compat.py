@@ -273,6 +273,11 @@ def pass_name(name: str) -> str:
     return name if bpy.app.version >= (5, 0, 0) else _OLD_PASS_NAMES.get(name, name)
 
 
+def has_background_vectors() -> bool:
+    """Whether Cycles' pass Vector shows how what is behind everything moves as the camera turns."""
+    return bpy.app.version >= (5, 2, 0)
+
+
 def peak_memory_megabytes() -> float | None:
     """The most memory this process has had, or None where the system does not tell."""
     try:

@@ -166,7 +166,8 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         from ..export.settings import enabled_passes, pass_names
 
         names = pass_names(renderlayer)
-        kinds: dict[str, Any] = {"XYZ": "VECTOR", "UVA": "VECTOR", "Z": "VALUE", "X": "VALUE"}
+        kinds: dict[str, Any] = dict.fromkeys(("XYZ", "XYZW", "UVA"), "VECTOR")
+        kinds |= {"Z": "VALUE", "X": "VALUE"}
         for info in enabled_passes(renderlayer):
             channels, name = info.channels, names[info.name]
             kind = kinds.get(channels, "COLOR")

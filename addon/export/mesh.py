@@ -77,13 +77,31 @@ def deforming(still: basicrt.Mesh, moments: Sequence[Moment]) -> basicrt.Mesh | 
         moments[0].positions,
         still.triangles,
         corner_normals=normals[0] if normals else None,
-        uvs=still.uvs,
-        material_slots=still.material_slots,
-        texture_space=still.texture_space,
-        attributes=still.attributes,
         motion_positions=np.stack([moment.positions for moment in moments[1:]]),
         motion_corner_normals=np.stack(normals[1:]) if normals else None,
+        **_unmoved(still),
     )
+
+
+def between_frames(still: basicrt.Mesh, before: Floats, after: Floats) -> basicrt.Mesh:
+    """The same mesh, which knows its (V, 3) positions of one frame before and one frame after."""
+    return basicrt.Mesh(
+        still.positions,
+        still.triangles,
+        corner_normals=still.corner_normals,
+        adjacent_positions=np.stack([before, after]),
+        **_unmoved(still),
+    )
+
+
+def _unmoved(still: basicrt.Mesh) -> dict[str, Any]:
+    """What is the same at all times."""
+    return {
+        "uvs": still.uvs,
+        "material_slots": still.material_slots,
+        "texture_space": still.texture_space,
+        "attributes": still.attributes,
+    }
 
 
 def convert_object(

@@ -24,6 +24,7 @@ _PASS_SWITCHES = {
     "Normal": "use_pass_normal",
     "Mist": "use_pass_mist",
     "Position": "use_pass_position",
+    "Vector": "use_pass_vector",
     "UV": "use_pass_uv",
     "Object Index": "use_pass_object_index",
     "Material Index": "use_pass_material_index",
@@ -184,6 +185,7 @@ def convert(
     # An alpha, and a hair more: what is as rough as the threshold counts.
     settings.film_transparent_roughness = min(chosen.film_transparent_roughness**2 * 1.00001, 1.0)
     settings.exposure = chosen.film_exposure
+    settings.background_vectors = compat.has_background_vectors()
     settings.shutter_curve = shutter_curve(b_render) if b_render.use_motion_blur else []
     settings.film_transparent = b_render.film_transparent
     _convert_world(compat.view_layer_world(b_scene, b_view_layer), settings)

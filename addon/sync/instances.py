@@ -29,7 +29,7 @@ from ..export.identity import random_number, uid
 from ..nodes import MeshData, ObjectData, Textures
 from ..report import ExportError, Report
 from .changes import Changes
-from .motion import Key, MotionExport, hair_key, key_of
+from .motion import Key, Movement, hair_key, key_of
 from .shapes import Geometry, Shapes
 
 # Kinds of objects that Blender would draw and BasicRT doesn't. (Curves, text and the like come as
@@ -93,7 +93,7 @@ class Instances:
         names: dict[str, list[str]],
         report: Report,
         textures: Textures,
-        movement: MotionExport | None = None,
+        movement: Movement[Any] | None = None,
     ) -> None:
         self._scene = scene
         self._names = names

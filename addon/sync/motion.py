@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What moves while the shutter is open: the scene is evaluated at further frames and followed."""
+"""What moves while the shutter is open, or from frame to frame: the scene is followed over further frames."""
 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import bpy
 import numpy as np
@@ -20,6 +21,8 @@ from ..report import Report
 
 # Evaluates the scene at a frame and a part of one, as RenderEngine.frame_set does.
 FrameSet = Callable[[int, float], None]
+# What is kept of the camera at each frame.
+View = TypeVar("View")
 # What tells placed objects apart at all frames.
 Key = tuple[int, int, tuple[int, ...]]
 
@@ -46,7 +49,7 @@ def hair_key(b_instance: bpy.types.DepsgraphObjectInstance, system: int) -> Key:
 
 
 @dataclass
-class _Instance:
+class MovingInstance:
     """An instance of the scene that may move."""
 
     index: int  # in Scene.instances
@@ -56,7 +59,7 @@ class _Instance:
 
 
 @dataclass
-class _Shape:
+class MovingShape:
     """A shape of the scene that may deform."""
 
     index: int  # in Scene.shapes
@@ -66,18 +69,23 @@ class _Shape:
     moments: dict[int, mesh.Moment | None] = field(default_factory=dict)
 
 
-class MotionExport:
-    """Follows objects, their meshes and the camera over the shutter's time.
+class Movement(ABC, Generic[View]):
+    """Follows objects, their meshes and the camera over some time.
 
     First everything is exported half-way and noted here; then follow() evaluates the other frames.
+    Moments have numbers from 0 to `most`, and what has fewer intervals than that is at every second one, or
+    every fourth, and so on.
     """
 
+    # What to say of hair and points, which are not followed.
+    round_shapes_warning: str
+
     def __init__(self, scene: basicrt.Scene, shutter: Shutter, report: Report) -> None:
+        self.shutter = shutter
         self._scene = scene
-        self._shutter = shutter
         self._report = report
-        self._instances: dict[Key, _Instance] = {}
-        self._shapes: dict[Key, _Shape] = {}  # by one object that shows it
+        self._instances: dict[Key, MovingInstance] = {}
+        self._shapes: dict[Key, MovingShape] = {}  # by one object that shows it
         self._known_shapes: set[int] = set()
         self._hair: dict[Key, list[Key]] = {}  # what grows on an object, and moves with it
 
@@ -92,44 +100,42 @@ class MotionExport:
         """Remember an object, or hair on it, that was exported as that instance of that shape."""
         b_object: Any = b_instance.object
         b_parent = b_instance.parent if b_instance.is_instance else None
-        intervals = motion.intervals(b_object, b_parent)
+        intervals = self._intervals(b_object, b_parent)
         if intervals == 0:
             return
         own_key, name = key_of(b_instance), f'object "{b_object.name}"'
-        self._instances[key] = _Instance(instance, name, intervals)
+        self._instances[key] = MovingInstance(instance, name, intervals)
         if key != own_key:
             self._hair.setdefault(own_key, []).append(key)
         if key != own_key or b_object.type != "MESH":
-            if motion.is_deforming(b_object, b_parent, b_scene):
-                self._report.warn(name, "hair and points don't deform while the shutter is open")
+            if self._is_deforming(b_object, b_parent, b_scene):
+                self._report.warn(name, self.round_shapes_warning)
             return
         is_new = shape not in self._known_shapes and not b_object.data.is_editmode
-        if is_new and motion.is_deforming(b_object, b_parent, b_scene):
+        if is_new and self._is_deforming(b_object, b_parent, b_scene):
             self._known_shapes.add(shape)
-            self._shapes[key] = _Shape(shape, name, intervals, mesh.topology(b_object.data))
+            self._shapes[key] = MovingShape(shape, name, intervals, mesh.topology(b_object.data))
 
     def follow(
         self, depsgraph: bpy.types.Depsgraph, b_camera: bpy.types.Object, frame_set: FrameSet
     ) -> None:
         """Give the scene its motion. Leaves the dependency graph at the last frame."""
         b_original: Any = b_camera.original
-        camera_intervals = motion.intervals(b_original, None)
+        camera_intervals = self._intervals(b_original, None)
         most = max([camera_intervals, *(one.intervals for one in self._instances.values())])
         if most == 0:
             return
-        cameras: dict[int, tuple[Doubles, camera.Window]] = {}
+        views: dict[int, View] = {}
         # Half-way is where the scene is already.
         for number in [most // 2, *(i for i in range(most + 1) if i != most // 2)]:
             if number != most // 2:
-                set_frame(frame_set, self._shutter.frame(number / most))
-            b_evaluated = b_original.evaluated_get(depsgraph)
+                set_frame(frame_set, self.shutter.frame(number / most))
             b_scene: Any = depsgraph.scene_eval
-            cameras[number] = (
-                camera.transform(b_evaluated),
-                camera.window(b_evaluated.data, b_scene.render),
-            )
+            views[number] = self._view(b_original.evaluated_get(depsgraph), b_scene.render)
             self._take(depsgraph, number, most)
-        self._move_camera(cameras, most, camera_intervals, f'camera "{b_original.name}"')
+        if camera_intervals > 0:
+            chosen = [views[number] for number in range(0, most + 1, most // camera_intervals)]
+            self._move_camera(chosen, f'camera "{b_original.name}"')
         for instance in self._instances.values():
             self._move_instance(instance, most)
         for shape in self._shapes.values():
@@ -149,22 +155,64 @@ class MotionExport:
             if shape is not None and number % (most // shape.intervals) == 0:
                 shape.moments[number] = mesh.moment(b_object.data, shape.topology)
 
-    def _move_camera(
-        self, cameras: dict[int, tuple[Doubles, camera.Window]], most: int, count: int, item: str
-    ) -> None:
-        if count == 0:
-            return
-        numbers = range(0, most + 1, most // count)
-        if any(cameras[number][1] != cameras[0][1] for number in numbers):
+    @abstractmethod
+    def _intervals(self, b_object: bpy.types.Object, b_parent: bpy.types.Object | None) -> int:
+        """A power of two, between an object's or the camera's first moment and its last; 0 where it isn't followed."""
+
+    @abstractmethod
+    def _is_deforming(
+        self, b_object: bpy.types.Object, b_parent: bpy.types.Object | None, b_scene: Any
+    ) -> bool:
+        """Whether an object's mesh may be another at another time, and is to be followed."""
+
+    @abstractmethod
+    def _view(self, b_camera: bpy.types.Object, b_render: bpy.types.RenderSettings) -> View:
+        """What is kept of the evaluated camera."""
+
+    @abstractmethod
+    def _move_camera(self, views: list[View], item: str) -> None:
+        """Give the scene's camera its motion; `item` is its name."""
+
+    @abstractmethod
+    def _move_instance(self, instance: MovingInstance, most: int) -> None:
+        """Give an instance its motion."""
+
+    @abstractmethod
+    def _deform_shape(self, shape: MovingShape, most: int) -> None:
+        """Give a shape its motion."""
+
+
+class MotionExport(Movement[tuple[Doubles, camera.Window]]):
+    """What moves while the shutter is open, which blurs it."""
+
+    round_shapes_warning = "hair and points don't deform while the shutter is open"
+
+    def _intervals(self, b_object: bpy.types.Object, b_parent: bpy.types.Object | None) -> int:
+        return motion.intervals(b_object, b_parent)
+
+    def _is_deforming(
+        self, b_object: bpy.types.Object, b_parent: bpy.types.Object | None, b_scene: Any
+    ) -> bool:
+        return motion.is_deforming(b_object, b_parent, b_scene)
+
+    def _view(
+        self, b_camera: bpy.types.Object, b_render: bpy.types.RenderSettings
+    ) -> tuple[Doubles, camera.Window]:
+        b_data = b_camera.data
+        assert isinstance(b_data, bpy.types.Camera)
+        return camera.transform(b_camera), camera.window(b_data, b_render)
+
+    def _move_camera(self, views: list[tuple[Doubles, camera.Window]], item: str) -> None:
+        if any(window != views[0][1] for _transform, window in views):
             self._report.warn(item, "changes of its lens are not blurred")
-        keys = _keys_of([cameras[number][0] for number in numbers])
+        keys = _keys_of([transform for transform, _window in views])
         if keys is not None:
             moved = self._scene.camera
             assert moved is not None
             moved.transform, moved.motion_transforms = keys[0], list(keys[1:])
             self._scene.camera = moved
 
-    def _move_instance(self, instance: _Instance, most: int) -> None:
+    def _move_instance(self, instance: MovingInstance, most: int) -> None:
         numbers = range(0, most + 1, most // instance.intervals)
         if any(number not in instance.matrices for number in numbers):
             self._warn(instance.name, "appears or disappears while the shutter is open")
@@ -179,7 +227,7 @@ class MotionExport:
         moved.transform, moved.motion_transforms = keys[0], list(keys[1:])
         self._scene.instances[instance.index] = moved
 
-    def _deform_shape(self, shape: _Shape, most: int) -> None:
+    def _deform_shape(self, shape: MovingShape, most: int) -> None:
         numbers = range(0, most + 1, most // shape.intervals)
         moments = [shape.moments.get(number) for number in numbers]
         present = [moment for moment in moments if moment is not None]

@@ -17,9 +17,10 @@ from ..export import aovs, camera, light_groups, motion, settings, world
 from ..export.identity import uid
 from ..nodes import Surroundings, Textures
 from ..report import ExportError, Report
+from .adjacent_frames import AdjacentFrames
 from .changes import Changes, history
 from .instances import Filter, Instances
-from .motion import FrameSet, MotionExport, set_frame
+from .motion import FrameSet, MotionExport, Movement, set_frame
 
 
 @dataclass
@@ -44,26 +45,24 @@ def export(
 ) -> Export:
     """The scene that a view layer shows to an (evaluated) camera.
 
-    With motion blur it is evaluated at several frames by `frame_set`, and left at the one that it was
-    at; without that function everything stands still. Raises ExportError, naming the culprit, where
-    nothing can be rendered.
+    With motion blur or the pass Vector it is evaluated at several frames by `frame_set`, and left at the one
+    that it was at; without that function everything stands still. Raises ExportError, naming the culprit,
+    where nothing can be rendered.
     """
     b_scene: Any = depsgraph.scene
-    b_view_layer: Any = depsgraph.view_layer
     if b_camera is None:
         raise ExportError(f'scene "{b_scene.name}" has no camera: choose one in Scene > Camera')
-    shutter = motion.shutter(b_scene, b_view_layer)
     frame = b_scene.frame_current_final
     b_original: Any = b_camera.original
     b_evaluated_scene: Any = depsgraph.scene_eval
     sync = SceneSync(report)
-    if shutter is None or frame_set is None:
+    movement = _movement(depsgraph, sync.exported.scene, report)
+    if movement is None or frame_set is None:
         sync.update(depsgraph, camera.convert(b_camera, b_evaluated_scene.render, report))
         return sync.exported
-    movement = MotionExport(sync.exported.scene, shutter, report)
     try:
-        if shutter.center != frame:
-            set_frame(frame_set, shutter.center)
+        if movement.shutter.center != frame:
+            set_frame(frame_set, movement.shutter.center)
         b_evaluated = b_original.evaluated_get(depsgraph)
         b_evaluated_scene = depsgraph.scene_eval
         sync.follow(movement)
@@ -72,6 +71,23 @@ def export(
     finally:
         set_frame(frame_set, frame)
     return sync.exported
+
+
+def _movement(
+    depsgraph: bpy.types.Depsgraph, scene: basicrt.Scene, report: Report
+) -> Movement[Any] | None:
+    """What follows a view layer's scene over time, where that is asked for: for motion blur, or else for vectors."""
+    b_scene: Any = depsgraph.scene
+    b_view_layer: Any = depsgraph.view_layer
+    shutter = motion.shutter(b_scene, b_view_layer)
+    if shutter is None and b_view_layer.use_pass_vector:
+        return AdjacentFrames(scene, b_scene.frame_current_final, report)
+    if shutter is None:
+        return None
+    if b_view_layer.use_pass_vector:
+        item = f'view layer "{b_view_layer.name}"'
+        report.warn(item, "the pass Vector is 0 where there is motion blur")
+    return MotionExport(scene, shutter, report)
 
 
 class SceneSync:
@@ -83,7 +99,7 @@ class SceneSync:
     def __init__(self, report: Report) -> None:
         self.exported = Export()
         self._report = report
-        self._movement: MotionExport | None = None
+        self._movement: Movement[Any] | None = None
         self._changes = Changes(is_everything=True)
         self._textures = Textures(self.exported.scene)
         self._instances = Instances(
@@ -93,7 +109,7 @@ class SceneSync:
         self._world: Any = None  # what surrounds the scene
         self._layout: Any = None  # what all instances rest on
 
-    def follow(self, movement: MotionExport) -> None:
+    def follow(self, movement: Movement[Any]) -> None:
         """Tell this of all instances that are converted from now on."""
         self._movement = movement
 

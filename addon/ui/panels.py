@@ -245,16 +245,20 @@ class BASICRT_VIEWLAYER_PT_passes(_Panel, bpy.types.Panel):
         """Blender's callback."""
         view_layer = context.view_layer
         column = self.column()
+        is_blurred = context.scene.render.use_motion_blur and view_layer.use_motion_blur
         for name, text in (
             ("z", "Depth"),
             ("mist", "Mist"),
             ("position", "Position"),
             ("normal", "Normal"),
+            ("vector", "Vector"),
             ("uv", "UV"),
             ("object_index", "Object Index"),
             ("material_index", "Material Index"),
         ):
-            column.prop(view_layer, f"use_pass_{name}", text=text)
+            row = column.row()
+            row.active = name != "vector" or not is_blurred
+            row.prop(view_layer, f"use_pass_{name}", text=text)
         for kind in ("Diffuse", "Glossy", "Transmission"):
             column = self.layout.column(heading=kind, align=True)
             for part in ("Direct", "Indirect", "Color"):
