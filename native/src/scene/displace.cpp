@@ -132,6 +132,7 @@ Mesh displaced_mesh(const PreparedScene& scene, std::uint32_t instance, int thre
     keeps_normals[vertex] = displacement.keeps_normals;
     mesh.positions[vertex] += displacement.offset;
     for (std::vector<Vec3f>& key : mesh.motion_positions) key[vertex] += displacement.offset;
+    for (std::vector<Vec3f>& frame : mesh.adjacent_positions) frame[vertex] += displacement.offset;
   });
   if (before.corner_normals.empty()) return mesh;
   std::vector<std::uint8_t> is_kept(before.corner_normals.size());  // of each corner

@@ -36,8 +36,8 @@ std::size_t bytes_of(const Shape& shape) {
                                  return bytes_of(mesh.positions) + bytes_of(mesh.triangles) +
                                         bytes_of(mesh.corner_normals) + bytes_of(mesh.uvs) +
                                         bytes_of(mesh.material_slots) + bytes_of(mesh.motion_positions) +
-                                        bytes_of(mesh.motion_corner_normals) + bytes_of(mesh.attributes) +
-                                        bytes_of(mesh.rest_positions);
+                                        bytes_of(mesh.adjacent_positions) + bytes_of(mesh.motion_corner_normals) +
+                                        bytes_of(mesh.attributes) + bytes_of(mesh.rest_positions);
                                },
                                [](const Sphere&) { return sizeof(Sphere); },
                                [](const PointCloud& cloud) {
