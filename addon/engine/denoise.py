@@ -35,16 +35,26 @@ def install_command() -> str:
     return f'"{sys.executable}" -m pip install --no-deps --target "{folder}" {_PACKAGES}'
 
 
+def install_hint() -> str:
+    """What basicrt.check_denoiser() is to recommend."""
+    return f"`{install_command()}` and restart Blender"
+
+
 def can_denoise(b_scene: bpy.types.Scene, report: Report) -> bool:
     """Whether there is a denoiser; otherwise the picture stays noisy, with a warning."""
     import basicrt
 
     try:
-        basicrt.check_denoiser(f"`{install_command()}` and restart Blender")
+        basicrt.check_denoiser(install_hint())
     except basicrt.DenoiserError as error:
-        report.warn(f'scene "{b_scene.name}"', f"{error}; the picture stays noisy")
+        warn_noisy(b_scene, error, report)
         return False
     return True
+
+
+def warn_noisy(b_scene: bpy.types.Scene, error: Exception, report: Report) -> None:
+    """Tell why a picture is not denoised."""
+    report.warn(f'scene "{b_scene.name}"', f"{error}; the picture stays noisy")
 
 
 class LayerDenoiser:

@@ -23,7 +23,7 @@ from ..report import (
     summary,
 )
 from . import command_line
-from .denoise import LayerDenoiser, can_denoise
+from .denoise import LayerDenoiser, can_denoise, warn_noisy
 from .machine import thread_count
 from .result import NOISY_PASS, ResultWriter, complete_without_pixels
 from .starting import CancelledError, building_watch, start_session
@@ -283,7 +283,7 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         try:
             writer.write_whole(denoiser.finish(self._threads(b_scene)))
         except basicrt.DenoiserError as error:
-            self.warnings.warn(f'scene "{b_scene.name}"', f"{error}; the picture stays noisy")
+            warn_noisy(b_scene, error, self.warnings)
             show_warnings(self.warnings)
             self.report({"WARNING"}, summary(self.warnings))
 

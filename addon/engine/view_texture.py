@@ -3,17 +3,32 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Protocol
 
 import bpy
 import gpu
 import numpy as np
 from gpu_extras.presets import draw_texture_2d
-
-import basicrt
+from numpy.typing import NDArray
 
 # The largest number of the texture's format.
 _LARGEST = 65504.0
+
+
+class Shown(Protocol):
+    """What is read of a picture: as in basicrt.ViewPicture."""
+
+    @property
+    def pixels(self) -> NDArray[np.float32]:
+        """(height, width, 4), scene-linear, alpha associated."""
+
+    @property
+    def rect(self) -> tuple[int, int, int, int]:
+        """x, y, width and height."""
+
+    @property
+    def film_size(self) -> tuple[int, int]:
+        """Width and height of all that the view could show."""
 
 
 class ViewTexture:
@@ -23,7 +38,7 @@ class ViewTexture:
         self._texture: Any = None
         self._place = (0.0, 0.0, 1.0, 1.0)  # x, y, width, height as parts of the region
 
-    def set(self, picture: basicrt.ViewPicture) -> None:
+    def set(self, picture: Shown) -> None:
         """Show this picture from now on."""
         x, y, width, height = picture.rect
         film_width, film_height = picture.film_size

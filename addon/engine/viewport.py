@@ -11,19 +11,23 @@ import bpy
 
 import basicrt
 
-from ..export import studio_light, view
+from ..export import denoising, studio_light, view
 from ..preferences import use_isa
 from ..properties import settings_of
 from ..report import ExportError, Report, message_of, show_warnings
 from ..sync.instances import Filter
 from ..sync.scene_sync import SceneSync
 from . import command_line
+from .denoise import warn_noisy
 from .machine import check_memory, thread_count
 from .starting import tell_memory
+from .view_denoiser import ViewDenoiser
 from .view_texture import ViewTexture
 
 # How often a picture that is being refined is looked for.
 POLL_SECONDS = 0.02
+# What is seen only so long, while a view turns, is not denoised.
+STILL_SECONDS = 0.1
 
 
 class Viewport:
@@ -36,10 +40,12 @@ class Viewport:
     def __init__(self, engine: bpy.types.RenderEngine) -> None:
         self._engine = weakref.ref(engine)
         self._session: basicrt.ViewSession | None = None
+        self._threads = 0
         self._report = Report()
         self._sync = SceneSync(self._report)
         self._studio_light = studio_light.StudioLight()
         self._texture = ViewTexture()
+        self._denoiser = ViewDenoiser()
         self._shown: Any = None  # what the session was told to show
         self._visible: Any = None  # what the viewport showed of the scene when it was read
         self._is_out_of_date = False  # something changed that was not read yet
@@ -50,6 +56,7 @@ class Viewport:
 
     def close(self) -> None:
         """Stop working."""
+        self._denoiser.forget()
         if self._session is not None:
             self._session.close()
             self._session = None
@@ -69,21 +76,35 @@ class Viewport:
             self._read_changes(context, depsgraph)
         self._look(context, depsgraph)
         if self._session is not None:
-            picture = self._session.take_picture()
-            if picture is not None:
-                self._texture.set(picture)
+            self._take_pictures(self._session, depsgraph)
         region: Any = context.region
         b_scene: Any = depsgraph.scene
         self._texture.draw(self._engine(), b_scene, region.width, region.height)
         self._show_status()
         self._poll_later()
 
+    def _take_pictures(self, session: basicrt.ViewSession, depsgraph: bpy.types.Depsgraph) -> None:
+        """The newest one; a noisy one only until there is a denoised one of the same view."""
+        picture = session.take_picture()
+        if picture is not None:
+            self._denoiser.add(picture)
+            if self._denoiser.samples_shown(picture.revision) == 0:
+                self._texture.set(picture)
+        denoised = self._denoiser.take(session.revision)
+        if denoised is not None:
+            self._texture.set(denoised)
+        error = self._denoiser.take_error()
+        if error is not None:
+            warn_noisy(depsgraph.scene, error, self._report)
+            show_warnings(self._report)
+
     def _read_changes(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """From Blender's data to the session's scene, unless that is busy with it."""
         if self._session is None:
             use_isa()
             b_scene: Any = depsgraph.scene
-            self._session = basicrt.ViewSession(thread_count(b_scene, command_line.overrides()))
+            self._threads = thread_count(b_scene, command_line.overrides())
+            self._session = basicrt.ViewSession(self._threads)
             self._shown = None
         if self._session.status.is_preparing:
             self._poll_later()
@@ -119,11 +140,14 @@ class Viewport:
         camera = view.convert_camera(region, depsgraph, self._report)
         settings = view.convert_settings(region, depsgraph, self._report)
         pass_name = view.shown_pass(region)
-        shown = (repr(camera), repr(settings), pass_name)
+        b_scene: Any = depsgraph.scene
+        options = denoising.convert_view(b_scene, pass_name)
+        shown = (repr(camera), repr(settings), pass_name, options)
         if shown != self._shown:
             self._shown, self._failure = shown, ""
-            self._session.set_view(camera, settings, pass_name)
-        b_scene: Any = depsgraph.scene
+            self._denoiser.set_options(options)
+            further = list(options.how.passes) if options is not None else []
+            self._session.set_view(camera, settings, pass_name, further)
         self._session.set_paused(settings_of(b_scene).preview_pause)
 
     def _show_status(self) -> None:
@@ -137,6 +161,7 @@ class Viewport:
         for warning in session.take_warnings():
             self._report.add(self._sync.exported.in_users_words(warning))
             show_warnings(self._report)
+        denoised = self._denoiser.samples_shown(session.revision)
         try:
             status = session.status
         except basicrt.SceneError as error:
@@ -147,7 +172,8 @@ class Viewport:
                 self._message = f"Building trees | {status.prepared_fraction:.0%}"
             elif status.samples > 0 or not status.is_done:
                 self._message = f"Sample {status.samples}/{status.samples_end}"
-        engine.update_stats("", self._failure or self._message)
+        note = f" | Denoised at {denoised}" if denoised > 0 else ""
+        engine.update_stats("", self._failure or f"{self._message}{note}")
 
     def _measure(self, session: basicrt.ViewSession, status: basicrt.ViewStatus) -> None:
         """Once for each time that something was prepared: how much memory it takes."""
@@ -176,7 +202,13 @@ class Viewport:
             return False
         try:
             status = session.status
-            if session.has_picture or (self._is_out_of_date and not status.is_preparing):
+            is_turning = status.elapsed_seconds < STILL_SECONDS
+            if not is_turning:
+                # At rest, with nothing to take: what was taken last is the last.
+                is_at_rest = status.is_done and not session.has_picture
+                self._denoiser.work(session.revision, self._threads, is_at_rest=is_at_rest)
+            is_news = session.has_picture or self._denoiser.is_ready
+            if is_news or (self._is_out_of_date and not status.is_preparing):
                 engine.tag_redraw()
         except ReferenceError:  # Blender has done away with the engine
             self.close()
@@ -185,7 +217,8 @@ class Viewport:
             self._tell(error)
             engine.tag_redraw()
             return False
-        return not status.is_done or session.has_picture or self._is_out_of_date
+        is_awaited = session.has_picture or self._denoiser.is_busy or is_turning
+        return not status.is_done or is_awaited or self._is_out_of_date
 
     def _tell(self, error: basicrt.SceneError) -> None:
         """Why there is no picture, in the corner of the viewport from the next drawing on."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether and how a view layer's picture is denoised."""
+"""Whether and how the picture of a view layer, or of a viewport, is denoised."""
 
 from __future__ import annotations
 
@@ -29,6 +29,14 @@ class Denoising:
     quality: str
 
 
+@dataclass(frozen=True)
+class ViewDenoising:
+    """How viewports are: as pictures are, once each pixel has so many samples."""
+
+    how: Denoising
+    start_sample: int
+
+
 def convert(b_scene: bpy.types.Scene, b_view_layer: bpy.types.ViewLayer) -> Denoising | None:
     """None where the scene, or Cycles' switch of the view layer, wants none."""
     chosen = Choice(b_scene)
@@ -40,3 +48,19 @@ def convert(b_scene: bpy.types.Scene, b_view_layer: bpy.types.ViewLayer) -> Deno
         prefilter=chosen.denoising_prefilter.lower(),
         quality=chosen.denoising_quality.lower(),
     )
+
+
+def convert_view(b_scene: bpy.types.Scene, pass_name: str) -> ViewDenoising | None:
+    """None where the scene wants none for viewports, or where they show another pass than Combined.
+
+    A view layer's switch is for final renders alone, as in Cycles.
+    """
+    chosen = Choice(b_scene)
+    if not chosen.use_preview_denoising or pass_name != "Combined":
+        return None
+    how = Denoising(
+        passes=_INPUT_PASSES[chosen.preview_denoising_input_passes],
+        prefilter=chosen.preview_denoising_prefilter.lower(),
+        quality=chosen.preview_denoising_quality.lower(),
+    )
+    return ViewDenoising(how, chosen.preview_denoising_start_sample)

@@ -53,6 +53,11 @@ CYCLES_NAMES = {
     "denoising_input_passes": "denoising_input_passes",
     "denoising_prefilter": "denoising_prefilter",
     "denoising_quality": "denoising_quality",
+    "use_preview_denoising": "use_preview_denoising",
+    "preview_denoising_input_passes": "preview_denoising_input_passes",
+    "preview_denoising_prefilter": "preview_denoising_prefilter",
+    "preview_denoising_quality": "preview_denoising_quality",
+    "preview_denoising_start_sample": "preview_denoising_start_sample",
     "bake_type": "bake_type",
 }
 

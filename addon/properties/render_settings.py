@@ -104,6 +104,11 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
         denoising_input_passes: str
         denoising_prefilter: str
         denoising_quality: str
+        use_preview_denoising: bool
+        preview_denoising_input_passes: str
+        preview_denoising_prefilter: str
+        preview_denoising_quality: str
+        preview_denoising_start_sample: int
         bake_type: str
         tile_size: int
         bvh_builder: str
@@ -299,6 +304,40 @@ class BasicRTRenderSettings(bpy.types.PropertyGroup):
             description="How much time the denoiser takes",
             items=DENOISING_QUALITIES,
             default="HIGH",
+        )
+        use_preview_denoising: BoolProperty(
+            name="Viewport Denoise",
+            description="Take the noise out of viewports' pictures with Intel's Open Image Denoise, "
+            "which must be installed: behind the scenes, each time that they have twice as many "
+            "samples, and when they come to rest",
+            default=False,
+        )
+        preview_denoising_input_passes: EnumProperty(
+            name="Passes",
+            description="What the denoiser of viewports sees beside the picture",
+            items=DENOISING_INPUTS,
+            default="RGB_ALBEDO",
+        )
+        preview_denoising_prefilter: EnumProperty(
+            name="Prefilter",
+            description="What becomes of the noise in albedo and normal in viewports",
+            items=DENOISING_PREFILTERS,
+            default="FAST",
+        )
+        preview_denoising_quality: EnumProperty(
+            name="Quality",
+            description="How much time the denoiser of viewports takes",
+            items=DENOISING_QUALITIES,
+            default="BALANCED",
+        )
+        preview_denoising_start_sample: IntProperty(
+            name="Start Sample",
+            description="Samples that each pixel of a viewport has when it is denoised for the first "
+            "time. With fewer, only the picture that comes to rest is",
+            default=1,
+            min=0,
+            max=1 << 24,
+            soft_max=4096,
         )
         bake_type: EnumProperty(
             name="Bake Type",

@@ -78,29 +78,50 @@ class BASICRT_RENDER_PT_cycles(_Panel, bpy.types.Panel):
         column.operator("basicrt.copy_cycles_settings")
 
 
-class BASICRT_RENDER_PT_denoising(_Panel, bpy.types.Panel):
-    """How noise is taken out of the finished picture."""
+class _DenoisingPanel(_Panel):
+    """What the denoisers of finished pictures and of viewports have in common."""
 
     bl_label = "Denoise"
-    bl_parent_id = "BASICRT_RENDER_PT_sampling"
     bl_options = {"DEFAULT_CLOSED"}
+    kind = ""  # how names of settings begin
 
     def draw_header(self, context: Any) -> None:
         """Blender's callback."""
-        source = Choice(context.scene).source("use_denoising")
+        source = Choice(context.scene).source(f"use_{self.kind}denoising")
         self.layout.prop(source.owner, source.name, text="")
 
     def draw(self, context: Any) -> None:
         """Blender's callback."""
         chosen, column = Choice(context.scene), self.column()
-        column.active = chosen.use_denoising
-        _draw(column, context, "denoising_input_passes")
+        column.active = getattr(chosen, f"use_{self.kind}denoising")
+        _draw(column, context, f"{self.kind}denoising_input_passes")
         row = column.row()
-        row.active = chosen.denoising_input_passes != "RGB"
-        _draw(row, context, "denoising_prefilter")
-        _draw(column, context, "denoising_quality")
+        row.active = getattr(chosen, f"{self.kind}denoising_input_passes") != "RGB"
+        _draw(row, context, f"{self.kind}denoising_prefilter")
+        _draw(column, context, f"{self.kind}denoising_quality")
+        self.draw_more(column, context)
         if not is_installed():
             column.label(text="Open Image Denoise is not installed", icon="ERROR")
+
+    def draw_more(self, column: Any, context: Any) -> None:
+        """What only one of them has."""
+
+
+class BASICRT_RENDER_PT_viewport_denoising(_DenoisingPanel, bpy.types.Panel):
+    """How noise is taken out of viewports' pictures."""
+
+    bl_parent_id = "BASICRT_RENDER_PT_viewport"
+    kind = "preview_"
+
+    def draw_more(self, column: Any, context: Any) -> None:
+        """When it begins."""
+        _draw(column, context, "preview_denoising_start_sample")
+
+
+class BASICRT_RENDER_PT_denoising(_DenoisingPanel, bpy.types.Panel):
+    """How noise is taken out of the finished picture."""
+
+    bl_parent_id = "BASICRT_RENDER_PT_sampling"
 
 
 class BASICRT_RENDER_PT_light_paths(_Panel, bpy.types.Panel):
@@ -394,6 +415,7 @@ class BASICRT_CAMERA_PT_panorama(_Panel, bpy.types.Panel):
 _PANELS = (
     BASICRT_RENDER_PT_sampling,
     BASICRT_RENDER_PT_viewport,
+    BASICRT_RENDER_PT_viewport_denoising,
     BASICRT_RENDER_PT_denoising,
     BASICRT_RENDER_PT_cycles,
     BASICRT_RENDER_PT_light_paths,

@@ -15,10 +15,10 @@ namespace py = pybind11;
 
 namespace {
 
-Pass pass_named(const std::string& name) {
+Pass pass_named(const std::string& place, const std::string& name) {
   for (const PassInfo& info : passes)
     if (info.name == name) return info.pass;
-  throw SceneError("ViewSession.set_view.pass_name", "there is no pass \"" + name + "\"");
+  throw SceneError("ViewSession.set_view." + place, "there is no pass \"" + name + "\"");
 }
 
 // The session, and the lease of the scene that it prepares. All members are guarded by the GIL.
@@ -35,13 +35,18 @@ class BoundViewSession {
     scene_ = scene;
     open().set_scene(lease_->scene());
   }
-  void set_view(const Camera& camera, const RenderSettings& settings, const std::string& pass_name) {
-    open().set_view({.camera = camera, .settings = settings, .pass = pass_named(pass_name)});
+  void set_view(const Camera& camera, const RenderSettings& settings, const std::string& pass_name,
+                const std::vector<std::string>& further_passes) {
+    View view{.camera = camera, .settings = settings, .pass = pass_named("pass_name", pass_name)};
+    for (std::size_t i = 0; i < further_passes.size(); ++i)
+      view.further_passes.push_back(pass_named("further_passes[" + std::to_string(i) + "]", further_passes[i]));
+    open().set_view(std::move(view));
   }
   void set_paused(bool is_paused) { open().set_paused(is_paused); }
 
   [[nodiscard]] std::optional<ViewPicture> take_picture() { return open().take_picture(); }
   [[nodiscard]] bool has_picture() { return open().has_picture(); }
+  [[nodiscard]] std::uint64_t revision() { return open().revision(); }
   // Ends the lease where the scene has been read.
   [[nodiscard]] ViewStatus status() {
     try {
@@ -85,6 +90,24 @@ py::array_t<float> pixels_of(const py::object& self) {
                             self);
 }
 
+py::array_t<float> pass_of(const py::object& self, const std::string& name) {
+  const auto& picture = self.cast<const ViewPicture&>();
+  for (const ViewPass& made : picture.further) {
+    const PassInfo& info = pass_info(made.pass);
+    if (info.name == name)
+      return py::array_t<float>(std::vector<py::ssize_t>{picture.rect.height, picture.rect.width,
+                                                         static_cast<py::ssize_t>(info.channels.size())},
+                                made.values.data(), self);
+  }
+  throw py::key_error(name);
+}
+
+std::vector<std::string> pass_names(const ViewPicture& picture) {
+  std::vector<std::string> names;
+  for (const ViewPass& made : picture.further) names.emplace_back(pass_info(made.pass).name);
+  return names;
+}
+
 void bind_picture(py::module_& m) {
   py::class_<ViewPicture>(m, "ViewPicture", "What a view shows at some time.")
       .def_property_readonly("pixels", &pixels_of,
@@ -98,7 +121,12 @@ void bind_picture(py::module_& m) {
       .def_property_readonly(
           "film_size", [](const ViewPicture& self) { return std::tuple(self.film_width, self.film_height); },
           "(width, height) of all that the view could show, in this picture's pixels")
-      .def_readonly("samples", &ViewPicture::samples, "of each pixel; 0 where pixels are larger than the view's");
+      .def_readonly("samples", &ViewPicture::samples, "of each pixel; 0 where pixels are larger than the view's")
+      .def_readonly("revision", &ViewPicture::revision, "of the session when this picture was begun")
+      .def_property_readonly("further_passes", &pass_names,
+                             "those that the view has; none where pixels are larger than its own")
+      .def("__getitem__", &pass_of, py::arg("name"),
+           "The further pass as (height, width, channels) float32, row 0 at the bottom. Not a copy.");
 }
 
 void bind_status(py::module_& m) {
@@ -131,13 +159,18 @@ makes the calls.)")
            "Shows this scene; of the same object as before only what has changed is prepared again. Until status says "
            "that it is no longer preparing, the scene can't be changed, nor this be called.")
       .def("set_view", &BoundViewSession::set_view, py::arg("camera"), py::arg("settings"),
-           py::arg("pass_name") = "Combined",
-           "Looks at the scene with this camera; settings.samples is where refinement ends. Raises SceneError.")
+           py::arg("pass_name") = "Combined", py::arg("further_passes") = std::vector<std::string>(),
+           "Looks at the scene with this camera; settings.samples is where refinement ends. Pictures bring the values "
+           "of "
+           "further passes along. Raises SceneError.")
       .def("set_paused", &BoundViewSession::set_paused, py::arg("is_paused"),
            "Takes no more samples, or goes on with them.")
       .def("take_picture", &BoundViewSession::take_picture,
            "The newest picture, None where it was taken already or there is none yet.")
       .def_property_readonly("has_picture", &BoundViewSession::has_picture, "there is one to take")
+      .def_property_readonly("revision", &BoundViewSession::revision,
+                             "how often scenes and views were set; a picture of another one shows what was to be seen "
+                             "before")
       .def_property_readonly("status", &BoundViewSession::status,
                              "Raises SceneError, once, where the scene can't be rendered.")
       .def_property_readonly("memory", &BoundViewSession::memory,

@@ -35,7 +35,7 @@ def test_settings_have_defaults_descriptions_and_survive_a_file(tmp_path: Any) -
     scene = new_scene()
     properties = type(scene.basicrt).bl_rna.properties
     own = [p for p in properties if p.identifier not in {"rna_type", "name"}]
-    assert len(own) == 35
+    assert len(own) == 40
     assert all(p.description for p in own)
     scene.basicrt.samples = 77
     path = str(tmp_path / "file.blend")
@@ -62,7 +62,7 @@ def test_core_panels_are_shown() -> None:
 
 def test_own_panels_are_shown_for_no_other_engine() -> None:
     own = [p for p in all_panels() if p.__name__.startswith("BASICRT_")]
-    assert len(own) == 26
+    assert len(own) == 27
     assert all({"BASICRT"} == p.COMPAT_ENGINES for p in own)
 
 

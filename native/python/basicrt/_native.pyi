@@ -7729,10 +7729,19 @@ class ViewPicture:
     """
     What a view shows at some time.
     """
+    def __getitem__(self, name: str) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        The further pass as (height, width, channels) float32, row 0 at the bottom. Not a copy.
+        """
     @property
     def film_size(self) -> tuple[int, int]:
         """
         (width, height) of all that the view could show, in this picture's pixels
+        """
+    @property
+    def further_passes(self) -> list[str]:
+        """
+        those that the view has; none where pixels are larger than its own
         """
     @property
     def pixels(self) -> numpy.typing.NDArray[numpy.float32]:
@@ -7743,6 +7752,11 @@ class ViewPicture:
     def rect(self) -> tuple[int, int, int, int]:
         """
         (x, y, width, height) among the film's pixels, which are larger in a first picture
+        """
+    @property
+    def revision(self) -> int:
+        """
+        of the session when this picture was begun
         """
     @property
     def samples(self) -> int:
@@ -7815,9 +7829,10 @@ class ViewSession:
         | CylindricalCamera,
         settings: RenderSettings,
         pass_name: str = "Combined",
+        further_passes: collections.abc.Sequence[str] = [],
     ) -> None:
         """
-        Looks at the scene with this camera; settings.samples is where refinement ends. Raises SceneError.
+        Looks at the scene with this camera; settings.samples is where refinement ends. Pictures bring the values of further passes along. Raises SceneError.
         """
     def take_picture(self) -> ViewPicture | None:
         """
@@ -7836,6 +7851,11 @@ class ViewSession:
     def memory(self) -> SceneMemory | None:
         """
         SceneMemory of the scene that was prepared last, None until one was
+        """
+    @property
+    def revision(self) -> int:
+        """
+        how often scenes and views were set; a picture of another one shows what was to be seen before
         """
     @property
     def status(self) -> ViewStatus:

@@ -55,12 +55,13 @@ RenderSettings coarsen(RenderSettings settings, int coarseness) {
 }
 
 // Of a view: without what only makes sense for a whole render.
-RenderSettings progressive(RenderSettings settings, Pass pass) {
+RenderSettings progressive(const View& view) {
+  RenderSettings settings = view.settings;
   settings.samples_from = settings.samples_to = 0;
   settings.samples = std::min(settings.samples, sample_block);
   settings.adaptive_threshold = settings.time_limit = 0;
   settings.passes = {};
-  settings.passes.enable(pass);
+  settings.passes.enable(view.pass);
   return settings;
 }
 
@@ -74,6 +75,17 @@ void copy_as_rgba(const Tile& tile, Pass pass, ViewPicture& picture) {
     for (int x = 0; x < tile.rect.width; ++x, from += channels, to += 4)
       for (std::size_t i = 0; i < 4; ++i)
         to[i] = i < channels ? from[i] : i == 3 ? 1 : from[channels == 1 ? 0 : i % channels];
+  }
+}
+
+// A pass as it is.
+void copy_pass(const Tile& tile, const PixelRect& rect, ViewPass& pass) {
+  const std::size_t channels = pass_info(pass.pass).channels.size();
+  const std::size_t row_length = channels * static_cast<std::size_t>(tile.rect.width);
+  const float* from = tile.values.data() + tile.pass_begin(pass.pass);
+  for (int y = 0; y < tile.rect.height; ++y, from += row_length) {
+    const std::size_t row = static_cast<std::size_t>(tile.rect.y - rect.y + y) * rect.width;
+    std::copy_n(from, row_length, pass.values.data() + channels * (row + (tile.rect.x - rect.x)));
   }
 }
 
@@ -102,6 +114,7 @@ struct ViewSession::State {
   bool is_preparing = false;
   std::optional<ViewPicture> picture;  // the newest that was not taken
   int samples = 0, samples_end = 0;
+  std::uint64_t revision = 0;
   bool is_at_work = false;
   Clock::time_point view_begin = Clock::now();
   Report report;
@@ -117,6 +130,7 @@ struct ViewSession::State {
   const Scene* described_by = nullptr;
   bool has_scene = false;
   std::optional<View> view;
+  std::uint64_t view_revision = 0;     // what the scene and the view are of
   std::optional<Rendering> rendering;  // at full resolution
   double samples_per_second = 0;       // 0: unknown
   WorkerPool pool;
@@ -175,6 +189,7 @@ void ViewSession::State::take_orders(std::unique_lock<std::mutex>& lock) {
   if (!has_scene || !view || is_over || next_scene != nullptr) return;
   if (next_view) view = std::move(*std::exchange(next_view, std::nullopt));
   is_outdated = false;
+  view_revision = revision;
   samples = 0;
   samples_end = view->settings.samples;
   lock.unlock();
@@ -223,7 +238,7 @@ int ViewSession::State::choose_coarseness() const {
 
 // The first picture is made whatever is set meanwhile: else nothing were seen as long as a view turns.
 void ViewSession::State::begin_view() {
-  const RenderSettings settings = progressive(view->settings, view->pass);
+  RenderSettings settings = progressive(*view);
   const auto go_on_always = [&] { return !is_over.load(); };
   const auto go_on_unless_outdated = [&] { return !is_over && !is_outdated; };
   bool is_first = true;
@@ -234,6 +249,7 @@ void ViewSession::State::begin_view() {
         is_first ? render_round(coarse, 1, 0, go_on_always) : render_round(coarse, 1, 0, go_on_unless_outdated);
     if (!is_finished || is_outdated) return;
   }
+  for (const Pass pass : view->further_passes) settings.passes.enable(pass);
   apply_view(scene, view->camera, settings);
   rendering.emplace(scene, pool.thread_count());
   if (is_first && !render_round(*rendering, 1, 1, go_on_always)) rendering.reset();
@@ -256,7 +272,12 @@ bool ViewSession::State::render_round(Rendering& work, int samples_to, int sampl
   ViewPicture made{.film_width = scene.settings.width, .film_height = scene.settings.height, .rect = work.rect};
   made.samples = samples_shown;
   const double pixels = static_cast<double>(work.rect.width) * work.rect.height;
-  made.rgba.resize(static_cast<std::size_t>(work.rect.width) * work.rect.height * 4);
+  const std::size_t size = static_cast<std::size_t>(work.rect.width) * work.rect.height;
+  made.rgba.resize(size * 4);
+  made.revision = view_revision;
+  if (samples_shown > 0)
+    for (const Pass pass : view->further_passes)
+      made.further.push_back({pass, std::vector<float>(size * pass_info(pass).channels.size())});
 
   std::atomic<std::size_t> next_tile = 0;
   std::atomic<bool> is_finished = true;
@@ -267,7 +288,9 @@ bool ViewSession::State::render_round(Rendering& work, int samples_to, int sampl
         is_finished = false;
         return;
       }
-      copy_as_rgba(work.tiles[i].look(), view->pass, made);
+      const Tile tile = work.tiles[i].look();
+      copy_as_rgba(tile, view->pass, made);
+      for (ViewPass& pass : made.further) copy_pass(tile, made.rect, pass);
     }
   });
   if (!is_finished) return false;
@@ -292,6 +315,7 @@ ViewSession::~ViewSession() {
 void ViewSession::set_scene(const Scene& scene) {
   const std::lock_guard lock(state_->mutex);
   state_->next_scene = &scene;
+  ++state_->revision;
   state_->is_preparing = state_->is_outdated = true;
   state_->error = nullptr;
   state_->view_begin = Clock::now();
@@ -302,6 +326,7 @@ void ViewSession::set_view(View view) {
   validate_view(view.camera, view.settings);
   const std::lock_guard lock(state_->mutex);
   state_->next_view = std::move(view);
+  ++state_->revision;
   state_->is_outdated = true;
   state_->error = nullptr;
   state_->view_begin = Clock::now();
@@ -317,6 +342,11 @@ void ViewSession::set_paused(bool is_paused) {
 bool ViewSession::has_picture() const {
   const std::lock_guard lock(state_->mutex);
   return state_->picture.has_value();
+}
+
+std::uint64_t ViewSession::revision() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->revision;
 }
 
 std::optional<SceneMemory> ViewSession::memory() const {

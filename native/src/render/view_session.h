@@ -18,6 +18,13 @@ struct View {
   Camera camera;
   RenderSettings settings;
   Pass pass = Pass::combined;
+  std::vector<Pass> further_passes;  // pictures of the view's own pixels bring their values along
+};
+
+// One number after the other for each pixel, as many as the pass has channels; row 0 at the bottom.
+struct ViewPass {
+  Pass pass = Pass::combined;
+  std::vector<float> values;
 };
 
 struct ViewPicture {
@@ -25,6 +32,8 @@ struct ViewPicture {
   PixelRect rect;                       // the border, or all of it, among those
   int samples = 0;                      // of each pixel; 0: of pixels larger than the view's
   std::vector<float> rgba;              // the rectangle's, row 0 at the bottom; alpha is associated
+  std::vector<ViewPass> further;        // of the view's further passes; none of larger pixels
+  std::uint64_t revision = 0;           // of the session when this was begun
 };
 
 struct ViewStatus {
@@ -56,6 +65,8 @@ class ViewSession {
   // The newest picture; none where it was taken already.
   [[nodiscard]] std::optional<ViewPicture> take_picture();
   [[nodiscard]] bool has_picture() const;
+  // How often scenes and views were set. A picture of another revision shows what was to be seen before.
+  [[nodiscard]] std::uint64_t revision() const;
   // Throws, once, what ended the work on the scene or the view that was set last.
   [[nodiscard]] ViewStatus status();
   // Of the scene that was prepared last; nothing until one was.

@@ -148,6 +148,42 @@ TEST(ViewSession, a_pass_is_shown_as_a_grey) {
   }
 }
 
+TEST(ViewSession, further_passes_have_the_values_of_a_render_and_leave_the_picture_as_it_is) {
+  Scene scene = make_scene(3);
+  View view = view_of(scene);
+  view.further_passes = {Pass::denoising_albedo, Pass::depth};
+  ViewSession session(2);
+  session.set_scene(scene);
+  session.set_view(view);
+  const std::vector<ViewPicture> pictures = wait_for_pictures(session);
+  EXPECT_EQ(pictures.front().rgba, rendered(scene));
+  scene.settings.passes.enable(Pass::denoising_albedo);
+  scene.settings.passes.enable(Pass::depth);
+  Report report;
+  const auto whole = render(prepare(scene, report));
+  ASSERT_EQ(pictures.front().further.size(), 2u);
+  for (const ViewPass& made : pictures.front().further) EXPECT_EQ(made.values, whole.values(made.pass));
+  for (const ViewPicture& picture : pictures) EXPECT_EQ(picture.further.empty(), picture.samples == 0);
+}
+
+TEST(ViewSession, pictures_tell_what_was_set_before_them) {
+  const Scene scene = make_scene(1);
+  ViewSession session(2);
+  EXPECT_EQ(session.revision(), 0u);
+  session.set_scene(scene);
+  session.set_view(view_of(scene));
+  EXPECT_EQ(session.revision(), 2u);
+  while (!session.status().is_done) std::this_thread::sleep_for(1ms);
+  session.set_paused(true);
+  session.set_view(view_of(scene));
+  // Either that of the first view, which nobody has taken, or one of the second.
+  const std::optional<ViewPicture> first = session.take_picture();
+  ASSERT_TRUE(first.has_value());
+  EXPECT_TRUE(first->revision == 2 || first->revision == 3) << first->revision;
+  session.set_paused(false);
+  for (const ViewPicture& picture : wait_for_pictures(session)) EXPECT_EQ(picture.revision, 3u);
+}
+
 TEST(ViewSession, pausing_ends_refinement_and_going_on_completes_it) {
   const Scene scene = make_scene(4);
   ViewSession session(1);
