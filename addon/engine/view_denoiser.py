@@ -77,8 +77,8 @@ class ViewDenoiser:
         self._options: ViewDenoising | None = None
         self._newest: basicrt.ViewPicture | None = None
         self._job: _Job | None = None
-        self._begun = (-1, 0)  # revision and samples of the picture that was denoised last, or is being
-        self._shown = (-1, 0)  # of that which was taken last
+        # Revision and samples of the picture that was denoised last or is being, and of the one taken last.
+        self._begun = self._shown = (-1, 0)
         self._error: Exception | None = None
         self._is_out_of_order = False
 

@@ -95,7 +95,8 @@ class Viewport:
             self._texture.set(denoised)
         error = self._denoiser.take_error()
         if error is not None:
-            warn_noisy(depsgraph.scene, error, self._report)
+            b_scene: Any = depsgraph.scene
+            warn_noisy(b_scene, error, self._report)
             show_warnings(self._report)
 
     def _read_changes(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:

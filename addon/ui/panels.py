@@ -82,7 +82,7 @@ class _DenoisingPanel(_Panel):
     """What the denoisers of finished pictures and of viewports have in common."""
 
     bl_label = "Denoise"
-    bl_options = {"DEFAULT_CLOSED"}
+    bl_options: Any = {"DEFAULT_CLOSED"}
     kind = ""  # how names of settings begin
 
     def draw_header(self, context: Any) -> None:
