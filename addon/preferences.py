@@ -33,6 +33,9 @@ LOG_LEVELS = (
     ("DEBUG", "Debug", "What viewports took, too"),
 )
 
+# Of the width of a property in Blender's two-column style.
+_LABEL_PART = 0.4
+
 log = logging.getLogger("basicrt")
 
 
@@ -122,11 +125,11 @@ class BasicRTPreferences(bpy.types.AddonPreferences):
             return
         layout.label(text=f"Native module {version}", icon="CHECKMARK")
         column = layout.column()
-        column.use_property_split = True
+        column.use_property_split, column.use_property_decorate = True, False
         column.prop(self, "threads")
         self._draw_isa(column)
         column.prop(self, "log_level")
-        column.prop(self, "memory_limit")
+        column.prop(self, "memory_limit", text="Memory Limit (GB)")
         layout.operator("basicrt.self_test")
         for text, icon in shown_self_test():
             layout.label(text=text, icon=icon)
@@ -134,7 +137,13 @@ class BasicRTPreferences(bpy.types.AddonPreferences):
     def _draw_isa(self, column: Any) -> None:
         """Buttons for what the machine has."""
         available = importlib.import_module("basicrt").kernels()
-        row = column.row(align=True, heading="Instructions")
+        # Blender would take the first button of a property's row for its label.
+        split = column.split(factor=_LABEL_PART)
+        split.use_property_split = False
+        label = split.row()
+        label.alignment = "RIGHT"
+        label.label(text="Instructions")
+        row = split.row(align=True)
         row.enabled = not _environment_isa()
         for identifier, _name, _description in ISAS:
             if identifier == _AUTOMATIC or identifier.lower() in available:

@@ -230,10 +230,13 @@ class Drawn:
     def row(self, **_options: Any) -> "Drawn":
         return self
 
+    def split(self, factor: float) -> "Drawn":
+        return self
+
     def label(self, text: str, icon: str = "") -> None:
         self.labels.append(text)
 
-    def prop(self, owner: Any, name: str) -> None:
+    def prop(self, owner: Any, name: str, text: str = "") -> None:
         assert name in owner.bl_rna.properties
         self.properties.append(name)
 
