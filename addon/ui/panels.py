@@ -414,9 +414,9 @@ class BASICRT_CAMERA_PT_panorama(_Panel, bpy.types.Panel):
 
 _PANELS = (
     BASICRT_RENDER_PT_sampling,
+    BASICRT_RENDER_PT_denoising,
     BASICRT_RENDER_PT_viewport,
     BASICRT_RENDER_PT_viewport_denoising,
-    BASICRT_RENDER_PT_denoising,
     BASICRT_RENDER_PT_cycles,
     BASICRT_RENDER_PT_light_paths,
     BASICRT_RENDER_PT_clamping,

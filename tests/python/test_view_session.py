@@ -66,6 +66,29 @@ def test_pixels_outlive_the_session() -> None:
     assert (pixels[..., 3] == 1).all()
 
 
+def test_pictures_bring_further_passes_along() -> None:
+    scene = still_life(samples=2)
+    names = ["Denoising Albedo", "Depth"]
+    session = ViewSession(2)
+    session.set_scene(scene)
+    session.set_view(scene.camera, scene.settings, "Combined", names)
+    picture = last_picture(session)
+    assert picture.revision == session.revision == 2
+    assert sorted(picture.further_passes) == sorted(names)
+    scene.settings.passes = ["Combined", *names]
+    whole = basicrt.render(scene)
+    np.testing.assert_array_equal(picture.pixels, whole["Combined"])
+    for name in names:
+        np.testing.assert_array_equal(picture[name], whole[name])
+    with pytest.raises(KeyError, match="Normal"):
+        picture["Normal"]
+    with pytest.raises(
+        SceneError, match=r'set_view\.further_passes\[1\]: there is no pass "Nothing"'
+    ):
+        session.set_view(scene.camera, scene.settings, further_passes=["Depth", "Nothing"])
+    assert session.revision == 2
+
+
 def test_a_scene_can_be_changed_again_once_it_is_prepared() -> None:
     scene = still_life(samples=1)
     session = ViewSession(1)
