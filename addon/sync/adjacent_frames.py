@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 import numpy as np
 
@@ -17,7 +19,13 @@ from .motion import Movement, MovingInstance, MovingShape
 _BEFORE, _NOW, _AFTER = range(3)
 
 
-class AdjacentFrames(Movement[camera.Camera]):
+if TYPE_CHECKING:
+    _Movement = Movement[camera.Camera]
+else:  # typing would keep the class for ever, as motion.py says
+    _Movement = Movement
+
+
+class AdjacentFrames(_Movement):
     """Follows the scene from the frame before to the frame after, and blurs nothing.
 
     As in Cycles no object's settings of motion blur count, and what isn't there in one of the frames stands still

@@ -7,7 +7,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import bpy
 import numpy as np
@@ -182,7 +182,15 @@ class Movement(ABC, Generic[View]):
         """Give a shape its motion."""
 
 
-class MotionExport(Movement[tuple[Doubles, camera.Window]]):
+if TYPE_CHECKING:
+    _Movement = Movement[tuple[Doubles, camera.Window]]
+else:
+    # What is subscripted while running typing keeps for ever, and Blender's module with it: as a Python module
+    # Blender 4.2 crashes and 4.5 hangs at exit then.
+    _Movement = Movement
+
+
+class MotionExport(_Movement):
     """What moves while the shutter is open, which blurs it."""
 
     round_shapes_warning = "hair and points don't deform while the shutter is open"
