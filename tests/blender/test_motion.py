@@ -7,7 +7,6 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from addon.engine import BasicRTRenderEngine
 from addon.export import motion
 
 import basicrt
@@ -15,6 +14,7 @@ from support.blender import (
     add_camera,
     add_mesh,
     add_plane,
+    collect_warnings,
     export_in_render,
     new_scene,
     set_linear_keys,
@@ -161,19 +161,6 @@ def test_an_object_that_appears_stands_still(scene: Any, monkeypatch: pytest.Mon
     assert warnings() == (
         'object "New": appears or disappears while the shutter is open: it stands still',
     )
-
-
-def collect_warnings(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """What the next export warns of, once it is over."""
-    engines: list[Any] = []
-    export = BasicRTRenderEngine._export
-
-    def keep(engine: Any, depsgraph: Any) -> None:
-        export(engine, depsgraph)
-        engines.append(tuple(engine.warnings.warnings))
-
-    monkeypatch.setattr(BasicRTRenderEngine, "_export", keep)
-    return lambda: engines[-1]
 
 
 def test_a_lens_that_changes_is_reported(scene: Any, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,6 @@ import numpy as np
 import OpenEXR
 import pytest
 from addon import compat
-from addon.engine import BasicRTRenderEngine
 from addon.sync import motion, scene_sync
 
 import basicrt
@@ -18,6 +17,7 @@ from support.blender import (
     add_camera,
     add_mesh,
     add_plane,
+    collect_warnings,
     export_in_render,
     new_scene,
     passes_of_both,
@@ -267,19 +267,6 @@ def test_only_what_moves_has_transforms(scene: Any, monkeypatch: pytest.MonkeyPa
     meshes = [one for one in exported.shapes if isinstance(one, basicrt.Mesh)]
     assert sorted(len(one.adjacent_positions) for one in meshes) == [0, 2]
     assert not any(one.motion_positions for one in meshes)
-
-
-def collect_warnings(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """What the next export warns of, once it is over."""
-    engines: list[Any] = []
-    export = BasicRTRenderEngine._export
-
-    def keep(engine: Any, depsgraph: Any) -> None:
-        export(engine, depsgraph)
-        engines.append(tuple(engine.warnings.warnings))
-
-    monkeypatch.setattr(BasicRTRenderEngine, "_export", keep)
-    return lambda: engines[-1]
 
 
 def test_a_mesh_that_becomes_another_moves_as_its_object_does(

@@ -222,6 +222,19 @@ def export_in_render(monkeypatch: pytest.MonkeyPatch) -> basicrt.Scene:
     return exported[-1]
 
 
+def collect_warnings(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """What the next export warns of, once it is over."""
+    engines: list[Any] = []
+    exporting = BasicRTRenderEngine._export
+
+    def keep(engine: Any, depsgraph: Any) -> None:
+        exporting(engine, depsgraph)
+        engines.append(tuple(engine.warnings.warnings))
+
+    monkeypatch.setattr(BasicRTRenderEngine, "_export", keep)
+    return lambda: engines[-1]
+
+
 def set_exr(scene: Any, is_multilayer: bool = False) -> None:
     """Write 32-bit OpenEXR."""
     settings = scene.render.image_settings
