@@ -284,9 +284,11 @@ void PathIntegrator::gather_emission(const Path& path, const Ray& ray, const Sur
   const PreparedScene::PreparedInstance& instance = scene_.instances[point.instance];
   if (!instance.lit_sets.has(path.receiver_set)) return;
   if (instance.shadow_kind != ray_shadow && !path.is_camera_ray) return;  // look_for_linked_emitters() has seen to it
-  const float weight =
-      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, path.start(ray)));
-  add_light(path, path.throughput * emission * weight, instance.light_group, sample);
+  add_light(path, path.throughput * emission * weight_of_emission(path, ray, point), instance.light_group, sample);
+}
+
+float PathIntegrator::weight_of_emission(const Path& path, const Ray& ray, const SurfacePoint& point) const {
+  return path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, path.start(ray)));
 }
 
 // Holdouts are holes, whether or not the film is transparent elsewhere.

@@ -85,6 +85,8 @@ class PathIntegrator final : public Integrator {
   void gather_environment(const Path& path, const Ray& ray, PixelSample& sample);
   void gather_emission(const Path& path, const Ray& ray, const SurfacePoint& point, Color emission,
                        PixelSample& sample);
+  // What light samples leave of what an emissive surface sends to a path that ran into it.
+  [[nodiscard]] float weight_of_emission(const Path& path, const Ray& ray, const SurfacePoint& point) const;
   [[nodiscard]] bool is_filed(const Path& path) const;
   void add_connection(const Connection& connection, PixelSample& sample);
   // Light that a path runs into, if only what dims it were in the way: path_linked.cpp.

@@ -40,10 +40,8 @@ void PathIntegrator::meet_linked_emitter(const Path& path, const Ray& ray, const
   const PreparedScene::PreparedInstance& instance = scene_.instances[point.instance];
   if ((instance.visibility & ray.kinds) == 0 || !instance.lit_sets.has(path.receiver_set)) return;
   const Color emission = shade_at(scene_, point, -ray.direction, [&] { return context_of(path, ray, point); }).emission;
-  const float weight =
-      path.is_specular ? 1 : power_heuristic(path.bsdf_pdf, scene_.lights.pdf_surface(point, path.start(ray)));
-  add_linked_connection(path, ray, point.t, path.throughput * emission * weight, instance.light_group,
-                        instance.shadow_kind);
+  add_linked_connection(path, ray, point.t, path.throughput * emission * weight_of_emission(path, ray, point),
+                        instance.light_group, instance.shadow_kind);
 }
 
 void PathIntegrator::add_linked_connection(const Path& path, const Ray& ray, float distance, Color radiance,
