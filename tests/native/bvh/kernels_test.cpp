@@ -365,6 +365,32 @@ TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone) {
   }
 }
 
+// Of hits so near that single precision can't order them the company must not decide either.
+TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone_where_many_triangles_are_near) {
+  test::Random rng(6);
+  for (int picture = 0; picture < 40; ++picture) {
+    const Vec3f center = test::random_point(rng, 2);
+    Mesh mesh;
+    for (std::uint32_t i = 0; i < 200; ++i) {
+      const Vec3f a = test::random_point(rng), b = test::random_point(rng);
+      for (const Vec3f& corner : {a, b, -(a + b)}) mesh.positions.push_back(center + corner);
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const Tracer tracer = make_tracer({mesh}, {test::place(0, {})});
+    const Vec3f direction = test::random_point(rng);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 64; ++i)
+      rays.push_back({.origin = center, .direction = direction + test::random_point(rng) * 1e-3f});
+    std::vector<Hit> together(rays.size());
+    tracer.intersect(rays, together);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      Hit alone;
+      tracer.intersect(std::span(&rays[i], 1), std::span(&alone, 1));
+      ASSERT_TRUE(test::is_identical(alone, together[i])) << "picture " << picture << ", ray " << i;
+    }
+  }
+}
+
 // Seen from their two sides, the zero comes out with both signs.
 TEST_P(EveryKernel, gives_hits_at_the_origin_no_negative_distance) {
   Mesh mesh = test::flat_grid(1);

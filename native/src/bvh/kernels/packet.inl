@@ -153,6 +153,9 @@ class PacketWalk {
     return walk(world_, scene_.root, scratch_.stack);
   }
 
+  // Rays that met something so near that rounding may have hidden a rival: which one, the order of visits decides. That of the stream is to count.
+  unsigned doubtful_rays() const { return doubtful_; }
+
   // After store().
   KernelHit hit(unsigned lane) const {
     return {t_.lanes[lane], instances_.lanes[lane], primitives_.lanes[lane], u_.lanes[lane], v_.lanes[lane]};
@@ -287,7 +290,7 @@ class PacketWalk {
     if (hits != 0) take(Pack::mask(hits), t, w1 * inverse, w2 * inverse, block.primitives[lane], space.instance);
     if (__builtin_expect(slow != 0, 0))
       for (unsigned ray = 0; ray < packet_size; ++ray)
-        if (slow >> ray & 1) test_alone(space, block, lane, ray);
+        if (slow >> ray & 1) doubtful_ |= static_cast<unsigned>(test_alone(space, block, lane, ray)) << ray;
   }
 
   template <class Mask>
@@ -300,23 +303,24 @@ class PacketWalk {
     t_max_ = packet_.t.largest();
   }
 
-  // One ray and one triangle, as the stream tests them.
-  [[gnu::noinline]] void test_alone(const PacketSpace& packet_space, const TriangleBlock& block, unsigned lane,
+  // One ray and one triangle, as the stream tests them. True where that is the ray's new hit.
+  [[gnu::noinline]] bool test_alone(const PacketSpace& packet_space, const TriangleBlock& block, unsigned lane,
                                     unsigned ray) {
     store();
     BoxSpace boxes;
     TriangleSpace triangles;
-    if (!enter_instance(boxes, triangles, scene_, packet_space.instance, packet_.rays[ray])) return;
+    if (!enter_instance(boxes, triangles, scene_, packet_space.instance, packet_.rays[ray])) return false;
     const TriangleHits hits = intersect_block(block, triangles, boxes.begin, t_.lanes[ray], scene_, packet_.rays[ray]);
-    if (!(hits.is_hit.bits() >> lane & 1)) return;
+    if (!(hits.is_hit.bits() >> lane & 1)) return false;
     alignas(16) float t[4], u[4], v[4];
     hits.t.store(t);
     hits.u.store(u);
     hits.v.store(v);
     const KernelHit found{t[lane], packet_space.instance, block.primitives[lane], u[lane], v[lane]};
-    if (is_better(scene_, found, hit(ray)))
-      take(Pack::mask(1u << ray), Pack::all(found.t), Pack::all(found.u), Pack::all(found.v), found.primitive,
-           found.instance);
+    if (!is_better(scene_, found, hit(ray))) return false;
+    take(Pack::mask(1u << ray), Pack::all(found.t), Pack::all(found.u), Pack::all(found.v), found.primitive,
+         found.instance);
+    return true;
   }
 
   // Walks the instance's tree, with the stack from `top` on. False where a packet can't.
@@ -362,22 +366,40 @@ class PacketWalk {
            instance);
   }
 
+  // As transform() for each ray.
   void transform_all(const KernelInstance& instance) {
-    for (unsigned lane = 0; lane < packet_size; ++lane) {
-      LocalRay local;
-      transform(local, scene_, instance, packet_.rays[lane]);
-      for (int axis = 0; axis < 3; ++axis) {
-        scratch_.local_origin.axes[axis].lanes[lane] = local.origin[axis];
-        scratch_.local_direction.axes[axis].lanes[lane] = local.direction[axis];
+    auto& origins = scratch_.local_origin.axes;
+    auto& directions = scratch_.local_direction.axes;
+    if (__builtin_expect(instance.space == KernelInstance::Space::moving, 0)) {
+      for (unsigned lane = 0; lane < packet_size; ++lane) {
+        LocalRay local;
+        transform(local, scene_, instance, packet_.rays[lane]);
+        for (int axis = 0; axis < 3; ++axis) {
+          origins[axis].lanes[lane] = local.origin[axis];
+          directions[axis].lanes[lane] = local.direction[axis];
+        }
       }
+      return;
     }
+    for (int axis = 0; axis < 3; ++axis) {
+      const double* const m = instance.world_to_object[axis];
+      transform_lanes(m, m[3], scratch_.origin, origins[axis]);
+      transform_lanes(m, 0, scratch_.direction, directions[axis]);
+    }
+  }
+  // A loop that compilers turn into vectors.
+  static void transform_lanes(const double* m, double offset, const PackVectors& from, PackFloats& to) {
+    const double x = m[0], y = m[1], z = m[2];
+    for (unsigned lane = 0; lane < packet_size; ++lane)
+      to.lanes[lane] = static_cast<float>(x * from.axes[0].lanes[lane] + y * from.axes[1].lanes[lane] +
+                                          z * from.axes[2].lanes[lane] + offset);
   }
 
   const KernelScene& scene_;
   PacketScratch& scratch_;
   bool ends_at_hit_;
   std::uint32_t kinds_ = 0;
-  unsigned visit_count_ = 0, active_count_ = 0;
+  unsigned visit_count_ = 0, active_count_ = 0, doubtful_ = 0;
   Packet packet_;
   Pack t_min_;
   float t_max_;  // of all rays

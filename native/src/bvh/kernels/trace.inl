@@ -53,7 +53,10 @@ void trace(const KernelScene& scene, const char* rays, std::size_t count, Query 
         PacketWalk walk(scene, scratch.packet, packet_rays, Query::ends_at_hit);
         if (walk.run()) {
           walk.store();
+          const unsigned doubtful = Query::ends_at_hit ? 0 : walk.doubtful_rays();
           for (unsigned lane = 0; lane < packet_size; ++lane) query.write(scene, i + lane, walk.hit(lane));
+          for (unsigned rest = doubtful; rest != 0; rest &= rest - 1)
+            alone[alone_count++] = static_cast<std::uint32_t>(i + static_cast<unsigned>(__builtin_ctz(rest)));
           continue;
         }
       }
