@@ -216,7 +216,8 @@ Ray make_ray_from_inside(ByteReader& bytes, const FuzzScene& scene) {
   const Vec3f origin(scene.instances[0].object_to_world.point(Vec3d{x, y, z}));
   Ray ray{.origin = origin, .direction = point - origin};
   if (bytes.below(4) == 0) ray.direction[bytes.below(3)] = 0;
-  if (ray.direction.x == 0 && ray.direction.y == 0 && ray.direction.z == 0) ray.direction.x = 1;
+  // Of shorter directions the distance to the mesh may be more than a float holds.
+  if (max_component(abs(ray.direction)) < 1e-30f) ray.direction.x = 1;
   return ray;
 }
 

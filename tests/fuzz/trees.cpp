@@ -3,6 +3,7 @@
 #include "fuzz/trees.h"
 
 #include <array>
+#include <cmath>
 #include <variant>
 #include <vector>
 
@@ -71,6 +72,12 @@ std::vector<Hit> trace(const Tracer& tracer, std::span<const Ray> rays, std::str
   return hits;
 }
 
+// Scenes reach 1e15 at the most. From much farther away not even double precision tells what a ray meets: kernels have to agree, no more.
+bool can_be_judged(const Ray& ray) {
+  const float reach = max_component(abs(ray.origin));
+  return !(reach > 1e18f && std::isfinite(reach));
+}
+
 std::string check_rays(const FuzzScene& scene) {
   std::vector<Hit> expected;
   for (const Ray& ray : scene.rays) expected.push_back(test::brute_force(scene.shapes, scene.instances, ray));
@@ -91,6 +98,7 @@ std::string check_rays(const FuzzScene& scene) {
         if (!test::is_identical(hits[i], first_hits[i]))
           return name + text_of(hits[i]) + ", but with another kernel " + text_of(first_hits[i]);
         if (scene.is_closed && !hits[i].is_hit()) return name + "leaves a closed mesh";
+        if (!can_be_judged(scene.rays[i])) continue;
         fault = test::find_hit_fault(hits[i], expected[i], scene.shapes, scene.instances, scene.rays[i]);
         if (!fault.empty()) return name + fault + ": " + text_of(hits[i]) + " instead of " + text_of(expected[i]);
       }

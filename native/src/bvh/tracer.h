@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "bvh/kernels/kernel.h"
 #include "bvh/shape_tree.h"
 #include "geometry/hit.h"
@@ -68,7 +69,7 @@ class Tracer {
   std::vector<TracedInstance> instances_;
   std::vector<Bounds3f> boxes_;                                // of the instances, in the world
   std::vector<std::vector<KernelInterval>> kernel_intervals_;  // of each tree
-  std::vector<KernelInstance> kernel_instances_;
+  HugeVector<KernelInstance> kernel_instances_;
   MeshTree merged_;  // of small meshes that are used once, in world space
   std::vector<TriangleOwner> merged_owners_;
   NodeTree instance_tree_;

@@ -41,6 +41,7 @@ struct Float4 {
   }
   static Float4 load_anywhere(const float* from) { return load(from); }
   static Float4 all(float x) { return {{x, x, x, x}}; }
+  static Float4 of(float x, float y, float z) { return {{x, y, z, 0}}; }
   static Mask4 mask(unsigned bits) {
     return mask_of_each([&](int i) { return (bits >> i & 1) != 0; });
   }

@@ -15,6 +15,7 @@ struct Float4 {
   static Float4 load(const float* aligned) { return {_mm_load_ps(aligned)}; }
   static Float4 load_anywhere(const float* from) { return {_mm_loadu_ps(from)}; }
   static Float4 all(float x) { return {_mm_set1_ps(x)}; }
+  static Float4 of(float x, float y, float z) { return {_mm_setr_ps(x, y, z, 0)}; }
   static Mask4 mask(unsigned bits) {
     const __m128i lane_bits = _mm_setr_epi32(1, 2, 4, 8);
     return {

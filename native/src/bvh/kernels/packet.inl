@@ -328,6 +328,8 @@ class PacketWalk {
     const KernelInstance& instance = scene_.instances[index];
     if (!(kinds_ & instance.visibility)) return true;
     if (instance.interval_count != 0) return false;  // deforms: left to the stream
+    // Entering costs as much as many nodes, and the same for few rays as for all.
+    if (4 * static_cast<unsigned>(__builtin_popcount(active)) < packet_size) return false;
     if (instance.root == no_reference) {
       for (unsigned ray = 0; ray < packet_size; ++ray)
         if (active >> ray & 1) intersect_precisely(index, ray);
@@ -372,11 +374,13 @@ class PacketWalk {
     auto& directions = scratch_.local_direction.axes;
     if (__builtin_expect(instance.space == KernelInstance::Space::moving, 0)) {
       for (unsigned lane = 0; lane < packet_size; ++lane) {
-        LocalRay local;
-        transform(local, scene_, instance, packet_.rays[lane]);
+        const LocalRay local = transform(scene_, instance, packet_.rays[lane]);
+        alignas(16) float origin[4], direction[4];
+        local.origin.store(origin);
+        local.direction.store(direction);
         for (int axis = 0; axis < 3; ++axis) {
-          origins[axis].lanes[lane] = local.origin[axis];
-          directions[axis].lanes[lane] = local.direction[axis];
+          origins[axis].lanes[lane] = origin[axis];
+          directions[axis].lanes[lane] = direction[axis];
         }
       }
       return;

@@ -132,14 +132,15 @@ struct Steps {
     if (!is_traceable(ray) || scene.root == no_reference) return end_of_ray;
     slot.push(end_of_ray, -1);
     if (scene.root >= instance_mark) return enter(slot, scene.root & reference_index);
-    prepare_boxes(slot.world, Float4::load(ray.origin), Float4::load(ray.direction));
-    slot.world.begin = ray.t_min < 0 ? 0 : ray.t_min;
-    walk_world(slot);
+    prepare_boxes(Float4::load(ray.origin), Float4::load(ray.direction), slot.boxes, slot.world);
+    slot.boxes.begin = slot.world.begin = ray.t_min < 0 ? 0 : ray.t_min;
+    show_world(slot);
     return scene.root;
   }
 
   TreeReference leave_instance(Slot& slot) const {
-    walk_world(slot);
+    slot.boxes = slot.world;
+    show_world(slot);
     return slot.pop();
   }
 
@@ -183,8 +184,7 @@ struct Steps {
     return walk_instance(slot, interval.nodes, interval.blocks, interval.root);
   }
 
-  void walk_world(Slot& slot) const {
-    slot.boxes = slot.world;
+  void show_world(Slot& slot) const {
     slot.items[0] = reinterpret_cast<const char*>(scene.nodes);
     slot.items[1] = reinterpret_cast<const char*>(scene.instances);
   }

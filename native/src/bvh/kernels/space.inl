@@ -34,16 +34,21 @@ constexpr struct OctantTable {
   }
 } octant_table;
 
-// Only the first three lanes count.
-inline void prepare_boxes(BoxSpace& space, Float4 origin, Float4 direction) {
+// Only the first three lanes count. Several spaces get the same: one that has just been written number by number takes its time to be copied.
+template <class... Spaces>
+void prepare_boxes(Float4 origin, Float4 direction, Spaces&... spaces) {
   const Float4 smallest = Float4::all(__FLT_MIN__), largest = Float4::all(__FLT_MAX__), zero = Float4::all(0);
   const Mask4 is_direction_usable = (smallest <= abs(direction)) | (direction == zero);
   const Mask4 is_usable = is_direction_usable & (abs(direction) <= largest) & (abs(origin) <= largest);
   const Float4 padding = copysign(abs(origin) * Float4::all(0x1p-23f) + smallest, direction);
-  select(is_usable, origin + padding, largest).store3(space.entry_origin);
-  select(is_usable, origin - padding, Float4::all(-__FLT_MAX__)).store3(space.exit_origin);
-  select(is_usable, Float4::all(1) / direction, Float4::all(__builtin_inff())).store3(space.inverse_direction);
-  space.octant = octant_table.rows[direction.sign_bits() & is_usable.bits() & 7];
+  const Float4 entry_origin = select(is_usable, origin + padding, largest);
+  const Float4 exit_origin = select(is_usable, origin - padding, Float4::all(-__FLT_MAX__));
+  const Float4 inverse = select(is_usable, Float4::all(1) / direction, Float4::all(__builtin_inff()));
+  const BoxSpace::Octant octant = octant_table.rows[direction.sign_bits() & is_usable.bits() & 7];
+  (entry_origin.store3(spaces.entry_origin), ...);
+  (exit_origin.store3(spaces.exit_origin), ...);
+  (inverse.store3(spaces.inverse_direction), ...);
+  ((spaces.octant = octant), ...);
 }
 
 // How large directions and origins may be, and how small directions, for single precision to hold what triangles need.
@@ -90,29 +95,28 @@ inline std::uint32_t skipped_primitive(const KernelScene& scene, std::uint32_t i
   return first == no_reference ? ~0u : first + ray.from_primitive;
 }
 
-// The ray in the space of an instance, rounded.
+// The ray in the space of an instance, rounded. In registers: what is written number by number can't be read four at once for some time.
 struct LocalRay {
-  alignas(16) float origin[4], direction[4];
+  Float4 origin, direction;  // the fourth lanes don't count
 };
 
-inline void transform(LocalRay& local, const KernelScene& scene, const KernelInstance& instance, const KernelRay& ray) {
+inline LocalRay transform(const KernelScene& scene, const KernelInstance& instance, const KernelRay& ray) {
+  if (instance.space == KernelInstance::Space::world) return {Float4::load(ray.origin), Float4::load(ray.direction)};
   const double (*m)[4] = instance.world_to_object;
   double at_ray_time[3][4];
   if (__builtin_expect(instance.space == KernelInstance::Space::moving, 0)) {
     scene.world_to_object_at(instance, ray.time, at_ray_time);
     m = at_ray_time;
   }
-  for (int i = 0; i < 3; ++i) {
-    local.origin[i] = static_cast<float>(ray.origin[i] + m[i][3]);
-    local.direction[i] = ray.direction[i];
-  }
-  if (instance.space == KernelInstance::Space::translated) return;
   const double ox = ray.origin[0], oy = ray.origin[1], oz = ray.origin[2];
+  if (instance.space == KernelInstance::Space::translated)
+    return {Float4::of(static_cast<float>(ox + m[0][3]), static_cast<float>(oy + m[1][3]),
+                       static_cast<float>(oz + m[2][3])),
+            Float4::load(ray.direction)};
   const double dx = ray.direction[0], dy = ray.direction[1], dz = ray.direction[2];
-  for (int i = 0; i < 3; ++i) {
-    local.origin[i] = static_cast<float>(m[i][0] * ox + m[i][1] * oy + m[i][2] * oz + m[i][3]);
-    local.direction[i] = static_cast<float>(m[i][0] * dx + m[i][1] * dy + m[i][2] * dz);
-  }
+  const auto origin = [&](int i) { return static_cast<float>(m[i][0] * ox + m[i][1] * oy + m[i][2] * oz + m[i][3]); };
+  const auto direction = [&](int i) { return static_cast<float>(m[i][0] * dx + m[i][1] * dy + m[i][2] * dz); };
+  return {Float4::of(origin(0), origin(1), origin(2)), Float4::of(direction(0), direction(1), direction(2))};
 }
 
 // Distances are wrong by a few roundings of the coordinates, more where the ray grazes the triangle. Within this part of the coordinates from t_min
@@ -123,15 +127,12 @@ constexpr float near_reach = 0x1p-18f;
 inline bool enter_instance(BoxSpace& boxes, TriangleSpace& triangles, const KernelScene& scene, std::uint32_t index,
                            const KernelRay& ray) {
   const KernelInstance& instance = scene.instances[index];
-  const float *origin = ray.origin, *direction = ray.direction;
-  LocalRay local;
-  if (instance.space != KernelInstance::Space::world) {
-    transform(local, scene, instance, ray);
-    origin = local.origin;
-    direction = local.direction;
-  }
-  if (!is_usable_for_triangles(Float4::load(origin), Float4::load(direction))) return false;
-  prepare_boxes(boxes, Float4::load(origin), Float4::load(direction));
+  const LocalRay local = transform(scene, instance, ray);
+  if (!is_usable_for_triangles(local.origin, local.direction)) return false;
+  prepare_boxes(local.origin, local.direction, boxes);
+  alignas(16) float origin[4], direction[4];
+  local.origin.store(origin);
+  local.direction.store(direction);
   prepare_triangles(triangles, origin, direction);
   const float distance = __builtin_fabsf(origin[0]) + __builtin_fabsf(origin[1]) + __builtin_fabsf(origin[2]);
   const float margin = (instance.reach + distance) * __builtin_fabsf(triangles.shear[2]) * near_reach;
