@@ -11,7 +11,7 @@ from .. import compat
 from .coordinate_nodes import mesh_data, surface
 from .graph import Place, trace
 from .mesh_data import MeshData, Part, Source
-from .node_view import NodeView, Translation
+from .node_view import Translation
 from .operations import Operands, Value, as_vector, operation, output_value
 
 
@@ -40,17 +40,28 @@ def vector_displacement(of: Operands, _output: str) -> Value:
 
 
 def _along_tangents(of: Operands, offset: Any) -> Any:
-    """In object space: the second number goes along the normal, the others along the active UV map's axes."""
+    """In object space: the second number goes along the normal, the others along the active UV map's axes.
+
+    Of heights these are left out: along the surface they raise nothing, but as they turn from place to
+    place they would seem to, as bumps look at the height beside a place along the normal of that place.
+    """
+    normal = _in_space(of, _normal(of), "object", "normal")
+    if of.view.translation.is_height:
+        return _scaled(of, normal, _component(of, offset, "y")).data
     tangent = mesh_data(of, "vector", MeshData(Source.UV, "", Part.TANGENT)).data
     sign = mesh_data(of, "number", MeshData(Source.UV, "", Part.TANGENT_SIGN)).data
-    normal = _in_space(of, _normal(of), "object", "normal")
     across = _vector_math(of, "normalize", _vector_math(of, "cross_product", normal, tangent))
     total: Any = (0.0, 0.0, 0.0)
     axes = (tangent, normal, _scaled(of, across, sign).data)
     for axis, component in zip(axes, "xyz", strict=True):
-        made = basicrt.ComponentOperation(value=offset, component=component)
-        total = _vector_math(of, "add", total, _scaled(of, axis, of.add("number", made).data).data)
+        along = _scaled(of, axis, _component(of, offset, component)).data
+        total = _vector_math(of, "add", total, along)
     return total
+
+
+def _component(of: Operands, vector: Any, component: str) -> Any:
+    made = basicrt.ComponentOperation(value=vector, component=component)
+    return of.add("number", made).data
 
 
 def _normal(of: Operands) -> Any:
@@ -101,26 +112,27 @@ def displacement_offset(place: Place, translation: Translation) -> Any:
     return as_vector(value)
 
 
-def displacement_normal(place: Place, translation: Translation) -> basicrt.OperationRef | None:
-    """The normal of a surface that is displaced as much as a Displacement node says, at its place.
+def displacement_normal(
+    place: Place, translation: Translation, is_displaced: bool
+) -> basicrt.OperationRef | None:
+    """The normal of a surface that is displaced by what is linked to an output's Displacement.
 
-    None where it isn't displaced, or, with a warning, by another node.
+    The surface as it was counts, where it really `is_displaced`. None where nothing is linked.
     """
-    source = trace(place)
-    node: Any = source.socket.node
-    if not source.socket.is_output or node is None:
+    translation.values.clear()
+    translation.is_height = True
+    offset = displacement_offset(place, translation)
+    translation.is_height = False
+    if offset is None:
         return None
-    if node.bl_idname != "ShaderNodeDisplacement":
-        translation.warn(f"bumps by {node.bl_label} are not supported and left out")
-        return None
-    of = Operands(NodeView(node, source.groups, translation))
-    if of.is_linked("Normal"):
-        of.view.warn("Normal is not supported in bumps: the height counts along the surface's own")
-    return translation.material.add_operation(
+    add = translation.material.add_operation
+    normal = add(basicrt.SurfaceOperation(value="normal"))
+    height = basicrt.VectorMathOperation(operation="dot_product", a=offset, b=normal)
+    return add(
         basicrt.BumpOperation(
-            height=_height(of),
+            height=add(height),
             distance=1.0,
             filter_width=compat.bump_filter_width(),
-            local=node.space == "OBJECT",
+            undisplaced=is_displaced,
         )
     )

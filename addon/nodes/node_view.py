@@ -77,6 +77,8 @@ class Translation:
     # A lamp's nodes see places on the lamp.
     lamp: LampObject | None = None
     library: Any = None  # the file that it is linked from
+    # Of a displacement only by how much it raises the surface counts: bumps are made of it.
+    is_height: bool = False
     # What shaders have that nothing is linked to: zero is the surface's own, as it is.
     normal: Color | basicrt.OperationRef = (0.0, 0.0, 0.0)
     # What it asks for of meshes.

@@ -101,7 +101,7 @@ def _displace(translation: Translation, place: Place, b_material: bpy.types.Mate
             shader = basicrt.DisplacementShader(offset=offset, keep_normals=keeps_normals)
             translation.material.add(shader)
     if method != "DISPLACEMENT":
-        normal = displacement_normal(place, translation)
+        normal = displacement_normal(place, translation, method == "BOTH")
         if normal is not None:
             translation.normal = normal
     translation.values.clear()  # the height knows the surface as it is, all else what it looks like

@@ -16,6 +16,8 @@ from support.surfaces import ball, compare, shining_material
 
 # The share of pixels at edges of triangles and of the ball.
 EDGES = 0.03
+# The same of bumps. Before 4.3 Cycles looks at heights a whole pixel away, and on some facets it is another way.
+FACETS = 2 * EDGES if bpy.app.version >= (4, 3, 0) else 4 * EDGES
 
 
 def noise(tree: Any, coordinates: str = "Generated") -> Any:
@@ -67,23 +69,53 @@ def test_spaces_of_a_height(space: str, tmp_path: Path) -> None:
     compare(tree, shown(tree, "Position"), emission, tmp_path, 0.01, EDGES)
 
 
+@pytest.mark.parametrize("coordinates", ["Generated", "UV"])
+@pytest.mark.parametrize("space", ["OBJECT", "WORLD"])
 @pytest.mark.parametrize("value", ["Position", "Normal"])
-def test_displacement_and_bump(value: str, tmp_path: Path) -> None:
-    """A small one: Cycles has bumps on the surface as it was, BasicRT on the one that is."""
+def test_displacement_and_bump(value: str, space: str, coordinates: str, tmp_path: Path) -> None:
+    """Bumps are those of the surface as it was, however far it is moved."""
     tree, emission, _made = fine_ball()
-    node = by_height(tree, coordinates="UV")
-    node.inputs["Scale"].default_value = 0.1
-    displace(tree, node.outputs[0], "BOTH")
-    compare(tree, shown(tree, value), emission, tmp_path, 0.03, EDGES)
+    displace(tree, by_height(tree, space, coordinates).outputs[0], "BOTH")
+    compare(tree, shown(tree, value), emission, tmp_path, 0.02, FACETS)
+
+
+# In Cycles what is interpolated changes with the pixel, and on some facets the surface does in another direction: of
+# bumps on displaced surfaces the same is known of both.
+CHANGING = {"BUMP": "Object", "BOTH": "Generated"}
+
+
+def by_vectors(tree: Any, space: str, coordinates: str = "Generated") -> Any:
+    node = add_node(tree, "ShaderNodeVectorDisplacement", Scale=0.7, Midlevel=0.3)
+    node.space = space
+    tree.links.new(noise(tree, coordinates).outputs["Color"], node.inputs["Vector"])
+    return node
+
+
+@pytest.mark.parametrize("method", ["BUMP", "BOTH"])
+@pytest.mark.parametrize("space", ["OBJECT", "WORLD", "TANGENT"])
+def test_bumps_by_vectors(space: str, method: str, tmp_path: Path) -> None:
+    tree, emission, _made = fine_ball()
+    displace(tree, by_vectors(tree, space, CHANGING[method]).outputs[0], method)
+    compare(tree, shown(tree, "Normal"), emission, tmp_path, 0.02, FACETS)
+
+
+@pytest.mark.parametrize("method", ["BUMP", "BOTH"])
+def test_bumps_along_another_normal(method: str, tmp_path: Path) -> None:
+    """Of a height that counts along a normal that is linked, only what it raises the surface by."""
+    tree, emission, _made = fine_ball()
+    node = by_height(tree, coordinates=CHANGING[method])
+    tilted = tree.nodes.new("ShaderNodeVectorMath")
+    tilted.inputs[1].default_value = (0.5, 0.2, 0.1)
+    tree.links.new(shown(tree, "Normal"), tilted.inputs[0])
+    tree.links.new(tilted.outputs[0], node.inputs["Normal"])
+    displace(tree, node.outputs[0], method)
+    compare(tree, shown(tree, "Normal"), emission, tmp_path, 0.02, FACETS)
 
 
 @pytest.mark.parametrize("space", ["OBJECT", "WORLD", "TANGENT"])
 def test_displacement_by_vectors(space: str, tmp_path: Path) -> None:
     tree, emission, _made = ball()
-    node = add_node(tree, "ShaderNodeVectorDisplacement", Scale=0.7, Midlevel=0.3)
-    node.space = space
-    tree.links.new(noise(tree).outputs["Color"], node.inputs["Vector"])
-    displace(tree, node.outputs[0], "DISPLACEMENT")
+    displace(tree, by_vectors(tree, space).outputs[0], "DISPLACEMENT")
     compare(tree, shown(tree, "Position"), emission, tmp_path, 0.01, EDGES)
 
 

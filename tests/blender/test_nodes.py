@@ -547,22 +547,6 @@ def test_principled_subsurface_scattering() -> None:
 # ---- what is not supported ---------------------------------------------------------------------
 
 
-def test_a_normal_that_cannot_be_had_is_reported() -> None:
-    material, tree, output = empty_material()
-    diffuse = add_node(tree, "ShaderNodeBsdfDiffuse", Color=COLOR)
-    tree.links.new(tree.nodes.new("ShaderNodeBevel").outputs[0], diffuse.inputs["Normal"])
-    tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
-    only_node(material, 'node "Bevel": not supported: edges stay sharp')
-
-
-def test_bumps_by_vectors_are_reported() -> None:
-    material, tree, output = empty_material()
-    tree.links.new(
-        tree.nodes.new("ShaderNodeVectorDisplacement").outputs[0], output.inputs["Displacement"]
-    )
-    translate(material, "bumps by Vector Displacement are not supported and left out")
-
-
 @pytest.mark.parametrize(
     ("bl_idname", "ours"),
     [

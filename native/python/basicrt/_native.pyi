@@ -1779,6 +1779,7 @@ class BumpOperation:
     @invert.setter
     def invert(self, value: bool) -> None: ...
     @property
+    undisplaced: the bumps are those of the surface as it was before it was displaced, in object space
     def local(self) -> bool:
         """
         the distance is in object space
@@ -1792,6 +1793,7 @@ class BumpOperation:
         """
     @normal.setter
     def normal(
+        undisplaced: bool = False,
         self,
         value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
@@ -1846,6 +1848,13 @@ class TextureOperation:
         """
     @projection.setter
     def projection(self, value: str) -> None: ...
+    @property
+    def undisplaced(self) -> bool:
+        """
+        the bumps are those of the surface as it was before it was displaced, in object space
+        """
+    @undisplaced.setter
+    def undisplaced(self, value: bool) -> None: ...
     @property
     def texture(self) -> int | None:
         """

@@ -87,6 +87,9 @@ class Evaluator {
   const SurfacePoint& point;
   const Vec3f wo;
 
+  // The same values at another point.
+  [[nodiscard]] Evaluator at(const SurfacePoint& other) const { return {values_, textures, context, other, wo}; }
+
  private:
   std::span<const Vec3f> values_;
 };

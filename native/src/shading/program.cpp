@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "math/frame.h"
@@ -47,55 +48,114 @@ float bump_step(const BumpOperation& node, const Evaluator& in) {
   return std::max({footprint * node.filter_width, max_component(abs(in.point.position)) * 0x1p-17f, 1e-7f});
 }
 
-// The point moved along the surface: what is interpolated over the mesh and over uv changes with the position.
-SurfacePoint moved(const SurfacePoint& point, Vec3f step, const ShadingContext& context) {
+// A triangle in world space: where it is, or where it was before it was displaced.
+class Facet {
+ public:
+  Facet(const SurfacePoint& point, const Mesh& mesh, const Placement& placement, bool is_undisplaced) {
+    for (int i = 0; i < 3; ++i) {
+      const Vec3f corner = is_undisplaced ? mesh.rest_positions[mesh.triangles[point.primitive][i]]
+                                          : mesh.position_at(point.primitive, i, point.time);
+      corners_[i] = Vec3f(placement.object_to_world.point(Vec3d(corner)));
+    }
+  }
+
+  [[nodiscard]] Vec3f at(Vec2f shares) const { return corners_[0] + along(shares); }
+  [[nodiscard]] Vec3f along(Vec2f shares) const { return edge(1) * shares.x + edge(2) * shares.y; }
+  // By how much barycentrics change along a step within the triangle's plane; zero on a triangle that is none.
+  [[nodiscard]] Vec2f shares_of(Vec3f step) const {
+    const Vec3f normal = cross(edge(1), edge(2));
+    const float scale = 1 / length_squared(normal);
+    const Vec2f shares{dot(cross(step, edge(2)), normal) * scale, dot(cross(edge(1), step), normal) * scale};
+    return std::isfinite(shares.x) && std::isfinite(shares.y) ? shares : Vec2f{0, 0};
+  }
+
+ private:
+  [[nodiscard]] Vec3f edge(std::size_t i) const { return corners_[i] - corners_[0]; }
+
+  std::array<Vec3f, 3> corners_;
+};
+
+// None but on a mesh.
+std::optional<Facet> facet_of(const Evaluator& in, bool is_undisplaced) {
+  const Mesh* mesh = in.context.mesh;
+  if (!mesh || !in.context.placement || (is_undisplaced && mesh->rest_positions.empty())) return std::nullopt;
+  return Facet(in.point, *mesh, *in.context.placement, is_undisplaced);
+}
+
+// To a point beside another one on the surface.
+struct Step {
+  Vec3f change;  // of position
+  Vec2f shares;  // change of barycentrics, on a mesh
+};
+
+// What is interpolated over the mesh and over uv changes with the barycentrics.
+SurfacePoint moved(const SurfacePoint& point, const Step& step, const Mesh* mesh) {
   SurfacePoint result = point;
-  result.position += step;
-  if (!context.mesh || !context.placement) return result;
-  const Mesh& mesh = *context.mesh;
-  const auto corner = [&](int i) {
-    return Vec3f(context.placement->object_to_world.point(Vec3d(mesh.position_at(point.primitive, i, point.time))));
-  };
-  const Vec3f edge1 = corner(1) - corner(0), edge2 = corner(2) - corner(0), normal = cross(edge1, edge2);
-  const float scale = 1 / length_squared(normal);
-  const float b1 = dot(cross(step, edge2), normal) * scale, b2 = dot(cross(edge1, step), normal) * scale;
-  if (!std::isfinite(b1) || !std::isfinite(b2)) return result;
-  result.barycentrics = result.barycentrics + Vec2f{b1, b2};
-  if (mesh.uvs.empty()) {
+  result.position += step.change;
+  if (!mesh) return result;
+  result.barycentrics = result.barycentrics + step.shares;
+  if (mesh->uvs.empty()) {
     result.uv = result.barycentrics;
     return result;
   }
-  const Vec2f* uvs = &mesh.uvs[std::size_t{point.primitive} * 3];
-  result.uv = result.uv + (uvs[1] - uvs[0]) * b1 + (uvs[2] - uvs[0]) * b2;
+  const Vec2f* uvs = &mesh->uvs[std::size_t{point.primitive} * 3];
+  result.uv = result.uv + (uvs[1] - uvs[0]) * step.shares.x + (uvs[2] - uvs[0]) * step.shares.y;
   return result;
+}
+
+// Where a bump looks at the height: on the surface, or where it was before it was displaced.
+struct BumpPlace {
+  SurfacePoint point;
+  Step x, y;
+  Vec3f dpdx, dpdy;
+};
+
+BumpPlace bump_place(const BumpOperation& node, const Evaluator& in) {
+  const Vec3f normal = in.point.geometric_normal * (in.point.is_backfacing ? -1.0f : 1.0f);
+  const Frame frame = make_frame(normal, cross(Vec3f(1.0f), normal));
+  const float size = bump_step(node, in);
+  BumpPlace place{in.point, {frame.tangent * size, {0, 0}}, {frame.bitangent * size, {0, 0}}, {}, {}};
+  place.dpdx = place.x.change;
+  place.dpdy = place.y.change;
+  if (const std::optional<Facet> facet = facet_of(in, false))
+    for (Step* step : {&place.x, &place.y}) step->shares = facet->shares_of(step->change);
+  const std::optional<Facet> before = node.is_undisplaced ? facet_of(in, true) : std::nullopt;
+  if (!before) return place;
+  place.point.position = before->at(in.point.barycentrics);
+  place.point.shading_normal = undisplaced_normal(in);
+  place.dpdx = before->along(place.x.shares);
+  place.dpdy = before->along(place.y.shares);
+  // Positions change in the directions that the surface has now: as Cycles has it, which keeps but a length of its own.
+  const float mean = 0.5f * (length(place.dpdx) + length(place.dpdy));
+  place.x.change = frame.tangent * mean;
+  place.y.change = frame.bitangent * mean;
+  return place;
 }
 
 Vec3f run_one(const Operation& operation, Operations before, const Evaluator& in);
 
 Vec3f run_bump(const BumpOperation& node, Operations before, const Evaluator& in) {
-  HeightChange height{.here = in(node.height), .at_dx = 0, .at_dy = 0, .dpdx = {}, .dpdy = {}};
-  height.at_dx = height.at_dy = height.here;
-  const Vec3f normal = in.point.geometric_normal * (in.point.is_backfacing ? -1.0f : 1.0f);
-  const Frame frame = make_frame(normal, cross(Vec3f(1.0f), normal));
-  const float step = bump_step(node, in);
-  height.dpdx = frame.tangent * step;
-  height.dpdy = frame.bitangent * step;
-  if (!node.height.is_varying()) return bumped_normal(node, in, height);
+  const BumpPlace place = bump_place(node, in);
+  const Evaluator here = in.at(place.point);
+  HeightChange height{.dpdx = place.dpdx, .dpdy = place.dpdy};
+  height.here = height.at_dx = height.at_dy = in(node.height);
+  if (!node.height.is_varying()) return bumped_normal(node, here, height);
 
   const std::size_t count = node.height.operation.is_valid() ? node.height.operation.index + 1 : 0;
   std::array<Vec3f, small_size> few;
   std::vector<Vec3f> many(count > small_size ? count : 0);
   const std::span<Vec3f> values = many.empty() ? std::span<Vec3f>(few) : std::span<Vec3f>(many);
-  const auto height_at = [&](Vec3f change) {
-    const SurfacePoint point = moved(in.point, change, in.context);
+  const auto height_at = [&](const Step& step) {
+    const SurfacePoint point = moved(place.point, step, in.context.mesh);
     const Evaluator there(values, in.textures, in.context, point, in.wo);
     for (const std::uint32_t i : node.steps) values[i] = run_one(before[i], before.first(i), there);
     if (node.steps.empty()) run(before.first(count), values, there);
     return there(node.height);
   };
-  height.at_dx = height_at(height.dpdx);
-  height.at_dy = height_at(height.dpdy);
-  return bumped_normal(node, in, height);
+  if (node.is_undisplaced) height.here = height_at({});
+  height.at_dx = height_at(place.x);
+  height.at_dy = height_at(place.y);
+  return bumped_normal(node, here, height);
 }
 
 Vec3f run_one(const Operation& operation, Operations before, const Evaluator& in) {

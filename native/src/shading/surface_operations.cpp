@@ -189,6 +189,12 @@ Vec3f from_uv_tangents(Vec3f encoded, const Evaluator& in) {
 
 Vec3f viewed_normal(const Evaluator& in) { return in.point.shading_normal * side(in); }
 
+Vec3f undisplaced_normal(const Evaluator& in) {
+  if (!in.context.mesh || in.context.mesh->corner_normals.empty()) return in.point.shading_normal;
+  const Vec3f normal = normal_to_world(interpolated_normal(in), in);
+  return length_squared(normal) > 0 ? normal : in.point.shading_normal;
+}
+
 Vec3f eval(const SurfaceOperation& node, const Evaluator& in) {
   const SurfacePoint& point = in.point;
   const ShadingContext& context = in.context;
@@ -367,15 +373,24 @@ Vec3f eval(const WireframeOperation& node, const Evaluator& in) {
 Vec3f bumped_normal(const BumpOperation& node, const Evaluator& in, const HeightChange& height) {
   Vec3f normal = in(node.normal);
   if (length_squared(normal) == 0) normal = viewed_normal(in);
-  const Vec3f along_x = cross(height.dpdy, normal), along_y = cross(normal, height.dpdx);
-  const float area = dot(height.dpdx, along_x);
+  Vec3f dpdx = height.dpdx, dpdy = height.dpdy;
+  const bool is_in_object = node.is_undisplaced && in.context.placement;
+  if (is_in_object) {
+    const TransformD& to_object = in.context.placement->world_to_object;
+    normal = normal_to_object(normal, in);
+    dpdx = Vec3f(to_object.vector(Vec3d(dpdx)));
+    dpdy = Vec3f(to_object.vector(Vec3d(dpdy)));
+  }
+  const Vec3f along_x = cross(dpdy, normal), along_y = cross(normal, dpdx);
+  const float area = dot(dpdx, along_x);
   const Vec3f gradient = along_x * (height.at_dx - height.here) + along_y * (height.at_dy - height.here);
   const float scale = in(node.distance) * (node.is_inverted ? -1.0f : 1.0f) * (node.is_local ? stretch(in) : 1.0f),
               strength = std::max(in(node.strength), 0.0f);
   const float sign = area < 0 ? -1.0f : 1.0f;
   const Vec3f raised = normalized(normal * std::abs(area) - gradient * (sign * scale));
   const Vec3f blended = normalized(raised * strength + normal * (1 - strength));
-  return length_squared(blended) == 0 ? normal : blended;
+  const Vec3f bumped = length_squared(blended) == 0 ? normal : blended;
+  return is_in_object ? normal_to_world(bumped, in) : bumped;
 }
 
 }  // namespace basicrt

@@ -230,7 +230,7 @@ struct BumpOperation {
   ColorInput normal{Vec3f(0.0f)};
   bool is_inverted = false;
   float filter_width = 1;
-  bool is_local = false;
+  bool is_local = false, is_undisplaced = false;
   // The operations that the height needs, in order: compile() finds them. None: all that come before.
   std::vector<std::uint32_t> steps;
 
@@ -245,7 +245,9 @@ struct BumpOperation {
                      field("invert", &BumpOperation::is_inverted, "bumps become dents"),
                      field("filter_width", &BumpOperation::filter_width,
                            "how far apart the height is looked at, in pixels", above(0)),
-                     field("local", &BumpOperation::is_local, "the distance is in object space"));
+                     field("local", &BumpOperation::is_local, "the distance is in object space"),
+                     field("undisplaced", &BumpOperation::is_undisplaced,
+                           "the bumps are those of the surface as it was before it was displaced, in object space"));
   }
 };
 
@@ -254,6 +256,8 @@ struct BumpOperation {
 [[nodiscard]] Vec3f eval(const ObjectPropertyOperation& node, const Evaluator& in);
 // Of the surface, on the viewer's side.
 [[nodiscard]] Vec3f viewed_normal(const Evaluator& in);
+// The shading normal that the surface had before it was displaced, on the same side of it as its normals were.
+[[nodiscard]] Vec3f undisplaced_normal(const Evaluator& in);
 [[nodiscard]] Vec3f eval(const FresnelOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const NormalMapOperation& node, const Evaluator& in);
 [[nodiscard]] Vec3f eval(const TangentOperation& node, const Evaluator& in);
@@ -261,7 +265,7 @@ struct BumpOperation {
 
 // How the height changes: its values here and at two points beside, which lie at dpdx and dpdy from here.
 struct HeightChange {
-  float here, at_dx, at_dy;
+  float here = 0, at_dx = 0, at_dy = 0;
   Vec3f dpdx, dpdy;
 };
 [[nodiscard]] Vec3f bumped_normal(const BumpOperation& node, const Evaluator& in, const HeightChange& height);

@@ -86,6 +86,31 @@ TEST(SurfaceOperations, bumps_lean_by_their_slope) {
   EXPECT_EQ(std::get<BumpOperation>(compiled.operations[3]).steps, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
+// A mesh that was flat and is a steep slope now: heights along the flat one count, and the normal that it had.
+TEST(SurfaceOperations, bumps_of_the_undisplaced_surface_know_nothing_of_the_displacement) {
+  Mesh mesh = make_triangle();
+  mesh.rest_positions = mesh.positions;
+  for (Vec3f& position : mesh.positions) position.z = 3 * position.x;
+  mesh.corner_normals.assign(3, Vec3f{0, 0, 1});
+  const Placement placement;
+  const ShadingContext context{.mesh = &mesh, .placement = &placement, .footprint = 1e-3f};
+  Material material;
+  material.operations = {
+      SurfaceOperation{SurfaceValue::generated},
+      VectorMathOperation{.operation = VectorMathKind::dot_product, .a = OperationIndex{0}, .b = OperationIndex{0}},
+      BumpOperation{.height = OperationIndex{1}, .is_undisplaced = true}};
+  material.add(DiffuseShader{.normal = OperationIndex{2}});
+  material.surface = 0;
+  const Material compiled = compile(material, no_textures);
+  SurfacePoint point = point_at(0.3f, 0.2f);
+  point.position.z = 0.9f;
+  point.geometric_normal = normalize(Vec3f{-3, 0, 1});
+  const ProgramRun run(compiled, no_textures, point, {0, 0, 1}, context);
+  const Vec3f normal = run.values()(ColorInput(OperationIndex{2}));
+  EXPECT_NEAR(normal.x / normal.z, -0.6f, 3e-3f);
+  EXPECT_NEAR(normal.y / normal.z, -0.4f, 3e-3f);
+}
+
 // Each lobe counts with its own cosine, and the turned one fades a little.
 TEST(SurfaceOperations, shaders_keep_normals_of_their_own) {
   const Vec3f tilted = normalize(Vec3f{0.6f, 0, 0.8f}), light = normalize(Vec3f{0.3f, 0.1f, 1});
