@@ -484,9 +484,11 @@ def _filter_width(of: Operands) -> float:
 
 
 @operation("ShaderNodeBevel")
-def bevel(of: Operands, _output: str) -> Value | None:
-    """Edges stay sharp."""
-    of.view.warn("not supported: edges stay sharp")
-    if of.is_linked("Normal"):
-        return of.value("Normal")
-    return surface(of, "vector", "normal")
+def bevel(of: Operands, _output: str) -> Value:
+    """The surface's normal, or one that is linked, turned as if edges were rounded."""
+    made = basicrt.BevelOperation(
+        radius=of.number("Radius"),
+        normal=of.vector("Normal") if of.is_linked("Normal") else (0.0, 0.0, 0.0),
+        samples=of.node.samples,
+    )
+    return of.add("vector", made)

@@ -39,6 +39,7 @@ void register_operations(py::module_& m) {
   bind_described<NormalMapOperation>(m, "NormalMapOperation", "A normal from a colour.");
   bind_described<TangentOperation>(m, "TangentOperation", "A direction along the surface.");
   bind_described<AmbientOcclusionOperation>(m, "AmbientOcclusionOperation", "How open the surroundings are.");
+  bind_described<BevelOperation>(m, "BevelOperation", "A normal that turns around edges.");
   bind_described<WireframeOperation>(m, "WireframeOperation", "1 near the edges of triangles.");
   bind_described<BumpOperation>(m, "BumpOperation", "A normal from a height.");
   bind_described<ImageOperation>(m, "TextureOperation", "A texture of the scene at any coordinates.");

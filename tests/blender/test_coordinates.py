@@ -122,6 +122,44 @@ def test_ambient_occlusion(
     assert np.abs(ours - theirs).mean() < 0.03 * theirs.max()
 
 
+def blocks(shown: np.ndarray, size: int = 4) -> np.ndarray:
+    """The means of squares of pixels."""
+    height, width, channels = shown.shape
+    split = shown.reshape(height // size, size, width // size, size, channels)
+    mean: np.ndarray = split.mean(axis=(1, 3))
+    return mean
+
+
+@pytest.mark.parametrize("radius", [0.05, 0.3])
+@pytest.mark.parametrize("kind", ["smooth", "flat", "inside", "normal"])
+def test_bevel(kind: str, radius: float, tmp_path: Path) -> None:
+    """Of a ball whose sides meet in edges; one that is smooth has them flattened by the mean."""
+    tree, emission, made = ball(is_smooth=kind == "smooth")
+    if kind == "inside":
+        made.data.flip_normals()
+    bpy.context.scene.render.resolution_x = bpy.context.scene.render.resolution_y = 64
+    node = add_node(tree, "ShaderNodeBevel", Radius=radius)
+    node.samples = 128
+    if kind == "normal":
+        coordinates = tree.nodes.new("ShaderNodeTexCoord")
+        tree.links.new(coordinates.outputs["Generated"], node.inputs["Normal"])
+    bpy.context.scene.cycles.samples = 4
+    ours, theirs = (blocks(one) for one in pictures(tree, node.outputs[0], emission, tmp_path))
+    differences = np.abs(ours - theirs)
+    assert differences.mean() < 0.004, differences.mean()
+    assert np.quantile(differences, 0.98) < 0.02
+
+
+def test_bevel_rounds_edges(tmp_path: Path) -> None:
+    """Where it does nothing, pictures of normals are of other colours than where it does."""
+    tree, emission, _made = ball(is_smooth=False)
+    node = add_node(tree, "ShaderNodeBevel", Radius=0.3)
+    rounded, _theirs = pictures(tree, node.outputs[0], emission, tmp_path)
+    node.inputs["Radius"].default_value = 0
+    sharp, _theirs = pictures(tree, node.outputs[0], emission, tmp_path)
+    assert np.abs(rounded - sharp).mean() > 0.005
+
+
 def test_islands_have_numbers_of_their_own(tmp_path: Path) -> None:
     tree, emission, made = ball()
     bpy.context.view_layer.objects.active = made
@@ -253,7 +291,6 @@ def test_light_falloff_of_a_surface(output: str, smooth: float, tmp_path: Path) 
 
 
 UNSUPPORTED = [
-    ("ShaderNodeBevel", "Normal"),
     ("ShaderNodeParticleInfo", "Age"),
 ]
 

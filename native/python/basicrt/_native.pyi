@@ -19,6 +19,7 @@ __all__: list[str] = [
     "AttributeOperation",
     "BakeSettings",
     "BakeTarget",
+    "BevelOperation",
     "BrickOperation",
     "BumpOperation",
     "ChangeSpaceOperation",
@@ -1698,6 +1699,49 @@ class AmbientOcclusionOperation:
     @samples.setter
     def samples(self, value: int) -> None: ...
 
+class BevelOperation:
+    """
+    A normal that turns around edges.
+
+    radius: of the rounding, metres; 0 gives the normal as it is
+    normal: which is turned as the surface's own; world space; zero is that one
+    samples: rays at each point; in [1, 128]
+    """
+    def __init__(
+        self,
+        radius: float | TextureRef | OperationRef = 0.05,
+        normal: collections.abc.Sequence[float]
+        | numpy.typing.ArrayLike
+        | TextureRef
+        | OperationRef = (0.0, 0.0, 0.0),
+        samples: int = 4,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def normal(self) -> tuple[float, float, float] | TextureRef | OperationRef:
+        """
+        which is turned as the surface's own; world space; zero is that one
+        """
+    @normal.setter
+    def normal(
+        self,
+        value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
+    ) -> None: ...
+    @property
+    def radius(self) -> float | TextureRef | OperationRef:
+        """
+        of the rounding, metres; 0 gives the normal as it is
+        """
+    @radius.setter
+    def radius(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def samples(self) -> int:
+        """
+        rays at each point; in [1, 128]
+        """
+    @samples.setter
+    def samples(self, value: int) -> None: ...
+
 class WireframeOperation:
     """
     1 near the edges of triangles.
@@ -1735,6 +1779,7 @@ class BumpOperation:
     invert: bumps become dents
     filter_width: how far apart the height is looked at, in pixels; above 0
     local: the distance is in object space
+    undisplaced: the bumps are those of the surface as it was before it was displaced, in object space
     """
     def __init__(
         self,
@@ -1748,6 +1793,7 @@ class BumpOperation:
         invert: bool = False,
         filter_width: float = 1.0,
         local: bool = False,
+        undisplaced: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1779,7 +1825,6 @@ class BumpOperation:
     @invert.setter
     def invert(self, value: bool) -> None: ...
     @property
-    undisplaced: the bumps are those of the surface as it was before it was displaced, in object space
     def local(self) -> bool:
         """
         the distance is in object space
@@ -1793,7 +1838,6 @@ class BumpOperation:
         """
     @normal.setter
     def normal(
-        undisplaced: bool = False,
         self,
         value: collections.abc.Sequence[float] | numpy.typing.ArrayLike | TextureRef | OperationRef,
     ) -> None: ...
@@ -1804,6 +1848,13 @@ class BumpOperation:
         """
     @strength.setter
     def strength(self, value: float | TextureRef | OperationRef) -> None: ...
+    @property
+    def undisplaced(self) -> bool:
+        """
+        the bumps are those of the surface as it was before it was displaced, in object space
+        """
+    @undisplaced.setter
+    def undisplaced(self, value: bool) -> None: ...
 
 class TextureOperation:
     """
@@ -1848,13 +1899,6 @@ class TextureOperation:
         """
     @projection.setter
     def projection(self, value: str) -> None: ...
-    @property
-    def undisplaced(self) -> bool:
-        """
-        the bumps are those of the surface as it was before it was displaced, in object space
-        """
-    @undisplaced.setter
-    def undisplaced(self, value: bool) -> None: ...
     @property
     def texture(self) -> int | None:
         """
@@ -4478,6 +4522,7 @@ class Material:
         | VoronoiOperation
         | GaborOperation
         | AmbientOcclusionOperation
+        | BevelOperation
         | IesOperation
         | ObjectPropertyOperation,
     ) -> OperationRef:
@@ -4549,6 +4594,7 @@ class Material:
         | VoronoiOperation
         | GaborOperation
         | AmbientOcclusionOperation
+        | BevelOperation
         | IesOperation
         | ObjectPropertyOperation
     ]:

@@ -134,6 +134,7 @@ ShadingContext PathIntegrator::context_of(const Path& path, const Ray& ray, cons
   context.is_singular_ray = path.is_specular && !path.is_camera_ray;
   context.is_translucent_ray = path.is_translucent;
   context.probe = &probe_;
+  context.least_pdf = path.least_pdf;
   context.random_bits = path.sampler.fingerprint();
   set_bounces(context, path.bounces);
   return context;

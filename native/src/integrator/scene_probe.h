@@ -19,11 +19,17 @@ class SceneProbe final : public RayProbe {
       scene_.tracer.occluded({&ray, 1}, {&result, 1});
       return result != 0;
     }
+    return next_hit(ray, point.instance).has_value();
+  }
+
+  [[nodiscard]] std::optional<SurfacePoint> next_hit(Ray& ray, std::uint32_t instance) const override {
     while (true) {
       Hit hit;
       scene_.tracer.intersect({&ray, 1}, {&hit, 1});
-      if (!hit.is_hit() || hit.instance == point.instance) return hit.is_hit();
-      continue_behind(ray, hit, surface_point_at(scene_, ray, hit));
+      if (!hit.is_hit()) return std::nullopt;
+      const SurfacePoint point = surface_point_at(scene_, ray, hit);
+      continue_behind(ray, hit, point);
+      if (hit.instance == instance) return point;
     }
   }
 

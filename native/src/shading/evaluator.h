@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "geometry/placement.h"
 #include "geometry/point_cloud.h"
 #include "geometry/surface_point.h"
+#include "math/ray.h"
 #include "shading/inputs.h"
 
 namespace basicrt {
@@ -45,6 +47,8 @@ class RayProbe {
   // Whether a ray from the point meets anything within the distance: only of the point's own object where `is_local`.
   [[nodiscard]] virtual bool is_occluded(const SurfacePoint& point, Vec3f direction, float distance,
                                          bool is_local) const = 0;
+  // The next place where the ray meets this instance, through whatever else there is. The ray then goes on behind it.
+  [[nodiscard]] virtual std::optional<SurfacePoint> next_hit(Ray& ray, std::uint32_t instance) const = 0;
 };
 
 // What surrounds a point that is shaded. All of it may be missing: then it counts as zero.
@@ -62,6 +66,7 @@ struct ShadingContext {
   bool is_singular_ray = false, is_translucent_ray = false;  // it left a mirror or smooth glass; a translucent shader
   const RayProbe* probe = nullptr;
   std::uint64_t random_bits = 0;  // others each time
+  float least_pdf = infinity;     // of the densities of all scatterings on the way here
   int bounces = 0, diffuse_bounces = 0, glossy_bounces = 0, transmission_bounces = 0, transparent_bounces = 0;
 };
 
@@ -82,13 +87,13 @@ class Evaluator {
     return input.texture.is_valid() ? eval_texture(textures[input.texture], point.uv).color : input.constant;
   }
 
+  // The same values at another point.
+  [[nodiscard]] Evaluator at(const SurfacePoint& other) const { return {values_, textures, context, other, wo}; }
+
   const Table<Texture>& textures;
   const ShadingContext& context;
   const SurfacePoint& point;
   const Vec3f wo;
-
-  // The same values at another point.
-  [[nodiscard]] Evaluator at(const SurfacePoint& other) const { return {values_, textures, context, other, wo}; }
 
  private:
   std::span<const Vec3f> values_;

@@ -4,6 +4,7 @@
 
 #include <variant>
 
+#include "shading/bevel_operation.h"
 #include "shading/color_operations.h"
 #include "shading/gabor_operation.h"
 #include "shading/ies_operation.h"
@@ -25,6 +26,6 @@ using Operation =
                  AttributeOperation, FresnelOperation, NormalMapOperation, TangentOperation, WireframeOperation,
                  BumpOperation, ImageOperation, CheckerOperation, GradientOperation, WaveOperation, MagicOperation,
                  BrickOperation, NoiseOperation, WhiteNoiseOperation, VoronoiOperation, GaborOperation,
-                 AmbientOcclusionOperation, IesOperation, ObjectPropertyOperation>;
+                 AmbientOcclusionOperation, BevelOperation, IesOperation, ObjectPropertyOperation>;
 
 }  // namespace basicrt
