@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
 import pytest
 from addon.report import Report
 
 import basicrt
-from support.blender import add_node, export, place
+from support.blender import add_node, export, new_image, place
 from support.surfaces import ball, compare, shining_material
 
 # The share of pixels at edges of triangles and of the ball.
@@ -116,6 +117,18 @@ def test_bumps_along_another_normal(method: str, tmp_path: Path) -> None:
 def test_displacement_by_vectors(space: str, tmp_path: Path) -> None:
     tree, emission, _made = ball()
     displace(tree, by_vectors(tree, space).outputs[0], "DISPLACEMENT")
+    compare(tree, shown(tree, "Position"), emission, tmp_path, 0.01, EDGES)
+
+
+def test_displacement_by_a_map(tmp_path: Path) -> None:
+    """Of floats, half of which are negative."""
+    tree, emission, _made = fine_ball()
+    image = tree.nodes.new("ShaderNodeTexImage")
+    image.image = new_image(np.random.default_rng(3).random((8, 8, 4)) - (0.5, 0.5, 0.5, 0))
+    node = add_node(tree, "ShaderNodeVectorDisplacement", Scale=0.5, Midlevel=0.0)
+    node.space = "OBJECT"
+    tree.links.new(image.outputs["Color"], node.inputs["Vector"])
+    displace(tree, node.outputs[0], "DISPLACEMENT")
     compare(tree, shown(tree, "Position"), emission, tmp_path, 0.01, EDGES)
 
 

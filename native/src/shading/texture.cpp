@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/overloaded.h"
+#include "shading/texture_values.h"
 
 namespace basicrt {
 namespace {
@@ -18,15 +19,19 @@ Color eval_checkerboard(const CheckerboardTexture& texture, Vec2f uv) {
 Rgba eval_image_texture(const ImageTexture& texture, Vec2f uv) {
   if (texture.image.is_empty()) return {};
   const Vec3f place = texture.uv_to_image.point(Vec3f{uv.x, uv.y, 0});
-  Rgba value = eval_image(texture.image, {texture.interpolation, texture.extension, texture.is_divided_by_alpha},
-                          {place.x, place.y});
-  value.color = max(value.color, Color(0.0f));
-  return value;
+  return eval_image(texture.image, {texture.interpolation, texture.extension, texture.is_divided_by_alpha},
+                    {place.x, place.y});
 }
 
 }  // namespace
 
 Rgba eval_texture(const Texture& texture, Vec2f uv) {
+  Rgba value = eval_texture_values(texture, uv);
+  value.color = max(value.color, Color(0.0f));
+  return value;
+}
+
+Rgba eval_texture_values(const Texture& texture, Vec2f uv) {
   return std::visit(Overloaded{[](const ConstantTexture& t) { return Rgba{t.color}; },
                                [&](const CheckerboardTexture& t) { return Rgba{eval_checkerboard(t, uv)}; },
                                [&](const ImageTexture& t) { return eval_image_texture(t, uv); }},

@@ -10,6 +10,7 @@
 #include "shading/evaluator.h"
 #include "shading/noise.h"
 #include "shading/surface_operations.h"
+#include "shading/texture_values.h"
 
 namespace basicrt {
 namespace {
@@ -99,7 +100,7 @@ Vec3f eval(const ImageOperation& node, const Evaluator& in) {
   const Vec3f place = in(node.vector);
   if (!node.texture.is_valid()) return Vec3f(0.0f);
   const auto at = [&](Vec2f uv) {
-    const Rgba value = eval_texture(in.textures[node.texture], uv);
+    const Rgba value = eval_texture_values(in.textures[node.texture], uv);
     return node.is_alpha ? Vec3f(value.alpha) : value.color;
   };
   switch (node.projection) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "shading/texture_values.h"
+
 namespace basicrt {
 namespace {
 
@@ -53,6 +55,13 @@ TEST(Texture, texels_are_centred_at_half_integers_and_v_points_up) {
   expect_color(eval_color(image, {0.75f, 0.25f}), {2, 12, 22});
   expect_color(eval_color(image, {0.25f, 0.75f}), {3, 13, 23});
   expect_color(eval_color(image, {0.75f, 0.75f}), {4, 14, 24});
+}
+
+TEST(Texture, values_may_be_negative_and_colours_are_not) {
+  const ImageTexture image{
+      .image = {.width = 1, .height = 1, .channels = 3, .pixels = std::vector{-11.0f, -1.0f, 9.0f}, .path = {}}};
+  expect_color(eval_texture_values(image, {0.5f, 0.5f}).color, {-11, -1, 9});
+  expect_color(eval_color(image, {0.5f, 0.5f}), {0, 0, 9});
 }
 
 TEST(Texture, images_are_bilinear_between_texels) {
