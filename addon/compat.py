@@ -183,6 +183,26 @@ def luminance_weights() -> tuple[float, float, float]:
     return 0.2126729, 0.7151522, 0.0721750
 
 
+def works_in_rec709() -> bool:
+    """Whether colours that Blender computes with are linear Rec.709: from 5.0 on a file may choose others."""
+    b_colorspace: Any = getattr(bpy.data, "colorspace", None)
+    return b_colorspace is None or b_colorspace.working_space == "Linear Rec.709"
+
+
+def image_scale(color_space: str) -> float:
+    """By what Blender multiplies pictures of a colour space as it reads them, and Cycles doesn't.
+
+    From 5.0 on the white of its pictures of high dynamic range is that of 203 nits.
+    """
+    is_scaled = bpy.app.version >= (5, 0, 0) and color_space.startswith("Rec.2100-")
+    return 100 / 203 if is_scaled else 1.0
+
+
+def converts_packed_colors() -> bool:
+    """Whether Cycles converts colours that are packed with an alpha as they are."""
+    return bpy.app.version >= (5, 0, 0)
+
+
 def light_max_bounces(light: bpy.types.Light) -> int:
     """The bounces behind which a lamp lights nothing: a setting of Cycles, which may be switched off."""
     return int(getattr(getattr(light, "cycles", None), "max_bounces", 1024))

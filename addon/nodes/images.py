@@ -15,12 +15,10 @@ from numpy.typing import NDArray
 
 import basicrt
 
+from . import color_spaces
 from .mesh_data import MeshData, ObjectData
 
 MISSING = (1.0, 0.0, 1.0)  # the colour of an image that can't be had, as in Cycles
-
-_LINEAR_SPACES = ("Linear", "Linear Rec.709", "Raw", "Non-Color")
-_SRGB_SPACES = ("sRGB", "sRGB Rec.1886")
 
 
 @dataclass(frozen=True)
@@ -225,23 +223,32 @@ def _convert(
     if b_image.is_float:
         made = basicrt.Image(_visible_channels(b_image, _finite(shaped), 1.0))
     else:
-        encoding = _encoding(b_image, warn)
         encoded = _visible_channels(b_image, _bytes(shaped), 255)
-        if is_associated and encoded.shape[2] == 4:
-            encoded = _associated(encoded)
-        made = basicrt.Image(encoded, encoding)
+        made = _of_bytes(b_image, encoded, is_associated, warn)
     return ConvertedImage(made, key, is_associated)
 
 
-def _encoding(b_image: bpy.types.Image, warn: Callable[[str], None]) -> str:
-    """How an image's bytes stand for colour."""
-    b_colorspace: Any = b_image.colorspace_settings
-    name = b_colorspace.name
-    if b_colorspace.is_data or name in _LINEAR_SPACES:
-        return "linear"
-    if name not in _SRGB_SPACES:
-        warn(f'image "{b_image.name}": the colour space {name} is not supported: taken for sRGB')
-    return "srgb"
+def _of_bytes(
+    b_image: bpy.types.Image,
+    encoded: NDArray[np.uint8],
+    is_associated: bool,
+    warn: Callable[[str], None],
+) -> basicrt.Image:
+    """The colours that an image's bytes stand for."""
+    encoding = color_spaces.encoding(b_image)
+    if encoding is None:
+        colors = color_spaces.decoded(b_image, encoded, is_associated=is_associated)
+        if colors is not None:
+            return basicrt.Image(colors)
+        b_colorspace: Any = b_image.colorspace_settings
+        warn(
+            f'image "{b_image.name}": the colour space {b_colorspace.name} can\'t be converted: '
+            "taken for sRGB"
+        )
+        encoding = "srgb"
+    if is_associated and encoded.shape[2] == 4:
+        encoded = _associated(encoded)
+    return basicrt.Image(encoded, encoding)
 
 
 def _finite(pixels: NDArray[np.float32]) -> NDArray[np.float32]:

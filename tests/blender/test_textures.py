@@ -140,12 +140,6 @@ def test_a_node_without_image_is_magenta() -> None:
     assert texture.color == (1, 0, 1)
 
 
-def test_an_unknown_colour_space_is_reported() -> None:
-    image = new_image(RAMP, "Filmic sRGB", is_float=False)
-    warning = 'node "Image Texture": image "Picture": the colour space Filmic sRGB is not supported: taken for sRGB'
-    assert only_texture(textured_material(image)[0], warning).image.encoding == "srgb"
-
-
 def test_images_over_other_coordinates_are_operations() -> None:
     material, texture = textured_material(new_image(RAMP))
     tree = material.node_tree

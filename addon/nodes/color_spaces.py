@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the colours of images mean: by Blender's own configuration of OpenColorIO, whatever spaces it has."""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import compat
+
+_LINEAR_SPACES = ("Linear", "Linear Rec.709", "scene_linear", "Raw", "Non-Color")
+_SRGB_SPACES = ("sRGB", "sRGB Rec.1886")
+
+
+def encoding(b_image: bpy.types.Image) -> str | None:
+    """How an image's bytes stand for colour; None where they have to be `decoded`."""
+    b_colorspace: Any = b_image.colorspace_settings
+    if b_colorspace.is_data:
+        return "linear"
+    if compat.works_in_rec709() and b_colorspace.name in _LINEAR_SPACES:
+        return "linear"
+    return "srgb" if compat.works_in_rec709() and b_colorspace.name in _SRGB_SPACES else None
+
+
+def decoded(
+    b_image: bpy.types.Image, encoded: NDArray[np.uint8], *, is_associated: bool
+) -> NDArray[np.float32] | None:
+    """Scene-linear colours of an image's bytes, (height, width, 1, 3 or 4); None where Blender has no way to them.
+
+    As Cycles has it, colours are converted before they are multiplied by alpha, where they are.
+    """
+    b_colorspace: Any = b_image.colorspace_settings
+    pixels: NDArray[np.float32] = np.divide(encoded, 255, dtype=np.float32)
+    colors, alpha = pixels[..., :3], pixels[..., 3:]
+    if alpha.size == 0:
+        return _scene_linear(colors, b_colorspace.name)
+    factor = alpha if is_associated else np.ones_like(alpha)
+    if not is_associated and not compat.converts_packed_colors():
+        # Of channels that have nothing to do with alpha Cycles thinks that they were multiplied by it.
+        factor = alpha
+        colors /= np.where(alpha > 0, alpha, 1)
+    elif is_associated:
+        colors *= alpha > 0
+    converted = _scene_linear(colors, b_colorspace.name)
+    if converted is None:
+        return None
+    converted *= np.where(alpha > 0, factor, 1)
+    return np.concatenate([converted, alpha], axis=2)
+
+
+def _scene_linear(colors: NDArray[np.float32], space: str) -> NDArray[np.float32] | None:
+    """Blender converts pictures of floats as it reads them: it is given one to read."""
+    height, width, _channels = colors.shape
+    file = _tiff(np.broadcast_to(colors, (height, width, 3)))
+    b_picture: Any = bpy.data.images.new("Colors", 1, 1, float_buffer=True)
+    try:
+        b_picture.pack(data=file, data_len=len(file))
+        b_picture.source = "FILE"
+        b_picture.colorspace_settings.name = space
+        if tuple(b_picture.size) != (width, height) or not b_picture.is_float:
+            return None
+        pixels: NDArray[np.float32] = np.empty(width * height * b_picture.channels, np.float32)
+        b_picture.pixels.foreach_get(pixels)
+    except (TypeError, RuntimeError):  # of a space that this configuration doesn't have
+        return None
+    finally:
+        bpy.data.images.remove(b_picture)
+    converted = pixels.reshape(height, width, -1)[..., :3] / np.float32(compat.image_scale(space))
+    converted[~np.isfinite(converted)] = 0
+    return converted
+
+
+def _tiff(colors: NDArray[np.float32]) -> bytes:
+    """A file of colours, (height, width, 3) with the lowest row first."""
+    height, width, _channels = colors.shape
+    data = np.ascontiguousarray(colors[::-1], "<f4").tobytes()
+    short, long = 3, 4
+    entries = 10
+    behind = 8 + 2 + 12 * entries + 4  # the header, and the directory
+    bits, formats, pixels = behind, behind + 6, behind + 12
+    directory = (
+        (256, long, 1, width),
+        (257, long, 1, height),
+        (258, short, 3, bits),
+        (259, short, 1, 1),  # not compressed
+        (262, short, 1, 2),  # red, green, blue
+        (273, long, 1, pixels),
+        (277, short, 1, 3),  # channels
+        (278, long, 1, height),  # all rows in one piece
+        (279, long, 1, len(data)),
+        (339, short, 3, formats),
+    )
+    assert len(directory) == entries
+    parts = [struct.pack("<2sHI", b"II", 42, 8), struct.pack("<H", entries)]
+    parts += [struct.pack("<HHII", *entry) for entry in directory]
+    parts += [struct.pack("<I", 0), struct.pack("<3H", 32, 32, 32), struct.pack("<3H", 3, 3, 3)]
+    return b"".join(parts) + data
