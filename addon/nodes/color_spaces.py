@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import struct
 from typing import Any
 
 import bpy
@@ -53,49 +52,24 @@ def decoded(
 
 
 def _scene_linear(colors: NDArray[np.float32], space: str) -> NDArray[np.float32] | None:
-    """Blender converts pictures of floats as it reads them: it is given one to read."""
+    """Blender converts pictures of floats as it reads them: it is given one, packed, to read."""
     height, width, _channels = colors.shape
-    file = _tiff(np.broadcast_to(colors, (height, width, 3)))
-    b_picture: Any = bpy.data.images.new("Colors", 1, 1, float_buffer=True)
+    b_picture: Any = bpy.data.images.new(
+        "Colors", width, height, alpha=True, float_buffer=True, is_data=True
+    )
     try:
-        b_picture.pack(data=file, data_len=len(file))
-        b_picture.source = "FILE"
+        pixels = np.ones((height, width, 4), np.float32)
+        pixels[..., :3] = colors
+        b_picture.pixels.foreach_set(pixels.ravel())
+        b_picture.pack()
         b_picture.colorspace_settings.name = space
-        if tuple(b_picture.size) != (width, height) or not b_picture.is_float:
+        if tuple(b_picture.size) != (width, height) or b_picture.channels != 4:
             return None
-        pixels: NDArray[np.float32] = np.empty(width * height * b_picture.channels, np.float32)
-        b_picture.pixels.foreach_get(pixels)
+        b_picture.pixels.foreach_get(pixels.ravel())
     except (TypeError, RuntimeError):  # of a space that this configuration doesn't have
         return None
     finally:
         bpy.data.images.remove(b_picture)
-    converted = pixels.reshape(height, width, -1)[..., :3] / np.float32(compat.image_scale(space))
+    converted = pixels[..., :3] / np.float32(compat.image_scale(space))
     converted[~np.isfinite(converted)] = 0
     return converted
-
-
-def _tiff(colors: NDArray[np.float32]) -> bytes:
-    """A file of colours, (height, width, 3) with the lowest row first."""
-    height, width, _channels = colors.shape
-    data = np.ascontiguousarray(colors[::-1], "<f4").tobytes()
-    short, long = 3, 4
-    entries = 10
-    behind = 8 + 2 + 12 * entries + 4  # the header, and the directory
-    bits, formats, pixels = behind, behind + 6, behind + 12
-    directory = (
-        (256, long, 1, width),
-        (257, long, 1, height),
-        (258, short, 3, bits),
-        (259, short, 1, 1),  # not compressed
-        (262, short, 1, 2),  # red, green, blue
-        (273, long, 1, pixels),
-        (277, short, 1, 3),  # channels
-        (278, long, 1, height),  # all rows in one piece
-        (279, long, 1, len(data)),
-        (339, short, 3, formats),
-    )
-    assert len(directory) == entries
-    parts = [struct.pack("<2sHI", b"II", 42, 8), struct.pack("<H", entries)]
-    parts += [struct.pack("<HHII", *entry) for entry in directory]
-    parts += [struct.pack("<I", 0), struct.pack("<3H", 32, 32, 32), struct.pack("<3H", 3, 3, 3)]
-    return b"".join(parts) + data

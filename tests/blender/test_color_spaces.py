@@ -111,7 +111,7 @@ def test_no_picture_is_left_behind() -> None:
 
 def test_a_space_that_cannot_be_converted_is_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
     image = new_image(picture(), "ACEScg", is_float=False)
-    monkeypatch.setattr(color_spaces, "_tiff", lambda _colors: b"no picture")
+    monkeypatch.setattr(color_spaces, "_scene_linear", lambda _colors, _space: None)
     report = Report()
     converted = Textures(basicrt.Scene()).image(image, None, lambda text: report.warn("m", text))
     assert converted is not None

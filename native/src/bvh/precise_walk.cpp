@@ -71,8 +71,7 @@ std::optional<Hit> intersect_mesh_precisely(const MovingMeshTree& mesh, PreciseR
 std::optional<Hit> intersect_sphere_precisely(const Sphere& sphere, PreciseRay ray) {
   const auto t = intersect_sphere(ray, sphere);
   if (!t) return std::nullopt;
-  const Vec2d uv = sphere_uv(ray.origin + ray.direction * *t - Vec3d(sphere.center));
-  return make_hit(*t, 0, uv.x, uv.y);
+  return make_hit(*t, 0, 0, 0);
 }
 
 }  // namespace basicrt

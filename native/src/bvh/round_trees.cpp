@@ -143,11 +143,7 @@ std::optional<Hit> intersect_precisely(const PointTree& tree, PreciseRay ray) {
       const double t_before = ray.t_max;
       const auto t = intersect_sphere(ray, Sphere{point.center, point.radius});
       if (!t || !is_before(*t, point.number, t_before, nearest)) continue;
-      const Vec2d uv = sphere_uv(ray.origin + ray.direction * *t - Vec3d(point.center));
-      nearest = Hit{.t = static_cast<float>(*t),
-                    .primitive = point.number,
-                    .u = static_cast<float>(uv.x),
-                    .v = static_cast<float>(uv.y)};
+      nearest = Hit{.t = static_cast<float>(*t), .primitive = point.number};
     }
   });
   return nearest;

@@ -8,8 +8,8 @@
 
 namespace basicrt {
 
-// On a triangle the point is (1 - u - v) p0 + u p1 + v p2; on a sphere u and v are its texture coordinates;
-// on a curve u is along the segment and v across a ribbon, from -1 to 1.
+// On a triangle the point is (1 - u - v) p0 + u p1 + v p2; on a curve u is along the segment and v across a ribbon, from
+// -1 to 1; on spheres and points both are 0, for what it takes to find coordinates there most hits never need.
 struct Hit {
   static constexpr std::uint32_t none = ~0u;
 

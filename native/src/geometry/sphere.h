@@ -47,10 +47,10 @@ inline Sphere sphere_of(const PointCloud& cloud, std::uint32_t point) {
   return {.center = cloud.positions[point], .radius = cloud.radii[point]};
 }
 
-// Longitude and latitude in [0, 1] of a direction from the centre, poles on z.
+// Longitude and latitude in [0, 1] of a unit direction from the centre, poles on z.
 inline Vec2d sphere_uv(Vec3d direction) {
   const double longitude = std::atan2(direction.y, direction.x) / (2 * std::numbers::pi);
-  const double latitude = std::atan2(direction.z, std::hypot(direction.x, direction.y)) / std::numbers::pi;
+  const double latitude = std::atan2(direction.z, std::sqrt(direction.x * direction.x + direction.y * direction.y)) / std::numbers::pi;
   return {longitude < 0 ? longitude + 1 : longitude, latitude + 0.5};
 }
 

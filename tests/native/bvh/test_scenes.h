@@ -192,19 +192,13 @@ inline Hit brute_force(const std::vector<Shape>& shapes, const std::vector<Trace
     };
     const auto test_sphere = [&](const Sphere& sphere) {
       PreciseRay copy = local;
-      if (const auto t = intersect_sphere(copy, sphere)) {
-        const Vec2d uv = sphere_uv(local.origin + local.direction * *t - Vec3d(sphere.center));
-        consider(*t, uv.x, uv.y, i, 0);
-      }
+      if (const auto t = intersect_sphere(copy, sphere)) consider(*t, 0, 0, i, 0);
     };
     const auto test_points = [&](const PointCloud& cloud) {
       for (std::uint32_t point = 0; point < cloud.positions.size(); ++point) {
         PreciseRay copy = local;
         if (!(cloud.radii[point] > 0)) continue;
-        const auto t = intersect_sphere(copy, sphere_of(cloud, point));
-        if (!t) continue;
-        const Vec2d uv = sphere_uv(local.origin + local.direction * *t - Vec3d(cloud.positions[point]));
-        consider(*t, uv.x, uv.y, i, point);
+        if (const auto t = intersect_sphere(copy, sphere_of(cloud, point))) consider(*t, 0, 0, i, point);
       }
     };
     const auto test_curves = [&](const Curves& curves) {

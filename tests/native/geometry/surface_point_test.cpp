@@ -41,11 +41,9 @@ std::optional<Hit> find_hit(const Shape& shape, const TransformD& world_to_objec
     if (!hit) return std::nullopt;
     return Hit{static_cast<float>(hit->t), 3, 0, static_cast<float>(hit->u), static_cast<float>(hit->v)};
   }
-  const Sphere& sphere = std::get<Sphere>(shape);
-  const auto t = intersect_sphere(local, sphere);
+  const auto t = intersect_sphere(local, std::get<Sphere>(shape));
   if (!t) return std::nullopt;
-  const Vec2f uv(sphere_uv(local.origin + local.direction * *t - Vec3d(sphere.center)));
-  return Hit{static_cast<float>(*t), 3, 0, uv.x, uv.y};
+  return Hit{.t = static_cast<float>(*t), .instance = 3, .primitive = 0};
 }
 
 class SurfacePointTest : public testing::Test {
