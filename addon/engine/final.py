@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The RenderEngine: exports inside Blender's lock, then hands out tiles until done or cancelled."""
+"""The RenderEngine: Blender's callbacks. It exports inside Blender's lock, and renders afterwards."""
 
 from __future__ import annotations
 
-import time
 import weakref
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,35 +10,14 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from .. import compat
-from ..properties import settings_of
-from ..report import (
-    ExportError,
-    HeldReport,
-    Report,
-    caught,
-    log,
-    refuse_warnings,
-    show_warnings,
-    summary,
-)
+from ..report import HeldReport, Report, caught, show_warnings
 from . import command_line
-from .denoise import LayerDenoiser, can_denoise, warn_noisy
-from .machine import thread_count
-from .result import NOISY_PASS, ResultWriter, complete_without_pixels
-from .starting import CancelledError, building_watch, start_session
-from .status import show_status
+from .result import NOISY_PASS, complete_without_pixels
 
 if TYPE_CHECKING:
-    import basicrt
-
-    from ..export.denoising import Denoising
     from ..sync.scene_sync import Export
     from .bake import ObjectBake
     from .viewport import Viewport
-
-# How often Blender is told of progress, and asked whether to stop.
-STATUS_SECONDS = 0.5
-POLL_SECONDS = 0.05
 
 
 class BasicRTRenderEngine(bpy.types.RenderEngine):
@@ -232,117 +210,18 @@ class BasicRTRenderEngine(bpy.types.RenderEngine):
         preview.simplify(self.exported.scene.settings)
 
     def _trace(self, exported: Export, depsgraph: Any) -> None:
-        """Pull tiles until there are no more or the user cancels."""
-        from ..export.settings import pass_names
+        """Render one view layer."""
+        from .layer_render import LayerRender
 
-        options = self._denoising(depsgraph)  # first: it may add a warning
-        try:
-            started = self._start_session(exported, depsgraph.scene)
-        except CancelledError:
-            complete_without_pixels(self)
-            return
-        self._stamp_mattes(exported, depsgraph.view_layer.name)
-        with started as session:
-            layer = depsgraph.view_layer
-            writer = ResultWriter(self, layer.name, session.rect, pass_names(layer))
-            passes = list(exported.scene.settings.passes)
-            denoiser = LayerDenoiser(options, passes, session.rect) if options else None
-            next_status = 0.0
-            for tile in session.tiles(poll_seconds=POLL_SECONDS):
-                if tile is not None:
-                    writer.write(tile)
-                    if denoiser is not None:
-                        denoiser.add(tile)
-                if self._is_cancelled():
-                    session.stop()
-                    break
-                if time.monotonic() >= next_status:
-                    next_status = time.monotonic() + STATUS_SECONDS
-                    show_status(self, session.progress)
-            if not session.is_stopped:
-                show_status(self, session.progress)
-                self._log_progress(layer.name, session.progress, depsgraph.scene)
-                if denoiser is not None:
-                    self._denoise(denoiser, writer, depsgraph.scene)
-        writer.finish()
-
-    def _denoising(self, depsgraph: Any) -> Denoising | None:
-        """How the view layer is denoised, if it is to be and can be."""
-        from ..export import denoising
-
-        options = denoising.convert(depsgraph.scene, depsgraph.view_layer)
-        if options is None or not can_denoise(depsgraph.scene, self.warnings):
-            return None
-        return options
-
-    def _denoise(self, denoiser: LayerDenoiser, writer: ResultWriter, b_scene: Any) -> None:
-        """Put the denoised picture in the noisy one's place; it stays where the denoiser fails."""
-        import basicrt
-
-        self.update_stats("", "Denoising")
-        try:
-            writer.write_whole(denoiser.finish(self._threads(b_scene)))
-        except basicrt.DenoiserError as error:
-            warn_noisy(b_scene, error, self.warnings)
-            show_warnings(self.warnings)
-            self.report({"WARNING"}, summary(self.warnings))
-
-    def _stamp_mattes(self, exported: Export, layer: str) -> None:
-        """Into the picture's metadata: which names the ids of mattes stand for."""
-        entries = exported.scene.matte_metadata(f"{layer}.")
-        if not entries:
-            return
-        result: Any = self.get_result()
-        for key, value in entries.items():
-            result.stamp_data_add_field(key, value)
+        layer = LayerRender(self, depsgraph, self.overrides, self.warnings, self._is_cancelled)
+        layer.trace(exported)
 
     def _is_cancelled(self) -> bool:
         """Whether the user pressed Escape, or the process was interrupted."""
         return self.test_break()
 
-    def _start_session(self, exported: Export, b_scene: Any) -> basicrt.Session:
-        """Build the trees and start the threads; then tell of all that is not as in Blender."""
-        import basicrt
-
-        self.update_stats("", "Building trees")
-        session = start_session(
-            exported,
-            self.warnings,
-            self.overrides,
-            lambda: basicrt.Session(
-                exported.scene,
-                threads=self._threads(b_scene),
-                tile_size=settings_of(b_scene).tile_size,
-                preparing=building_watch(self, self._is_cancelled),
-            ),
-        )
-        if self.warnings.warnings:
-            try:
-                self._check_warnings(b_scene)
-            except ExportError:
-                session.stop()
-                raise
-            self.report({"WARNING"}, summary(self.warnings))
-        return session
-
     def _check_warnings(self, b_scene: Any) -> None:
         """Raises ExportError where there are some and the user wants none."""
-        if self.overrides.fails_on_warnings or settings_of(b_scene).fail_on_warnings:
-            refuse_warnings(self.warnings)
+        from .layer_render import check_warnings
 
-    def _threads(self, b_scene: Any) -> int:
-        """How many there are to be; 0 is one for each processor."""
-        return thread_count(b_scene, self.overrides)
-
-    def _log_progress(self, layer: str, progress: basicrt.Progress, b_scene: Any) -> None:
-        """What a view layer took."""
-        import basicrt
-
-        log.info(
-            'view layer "%s": %.2f s, %.2f M samples/s, threads: %d, %s',
-            layer,
-            progress.elapsed_seconds,
-            progress.samples_per_second / 1e6,
-            self._threads(b_scene) or basicrt.processor_count(),
-            basicrt.chosen_kernel(),
-        )
+        check_warnings(b_scene, self.overrides, self.warnings)
