@@ -34,8 +34,8 @@ asan:            ## C++ tests under the address and undefined-behaviour sanitize
 tsan:            ## C++ tests under the thread sanitizer
 	@$(PYTHON) tools/run_tests.py tsan
 
-nightly:         ## the comparison with Cycles over scenes/blender/families.py, on pictures four times as wide and high
-	@BASICRT_BIAS_SCALE=4 $(PYTHON) tools/run_tests.py wheels blender-5.0
+nightly:         ## the comparison with Cycles over scenes/blender/families.py, on pictures four times as wide and high, and 500 sequences of edits
+	@BASICRT_BIAS_SCALE=4 BASICRT_EDIT_SEQUENCES=500 $(PYTHON) tools/run_tests.py wheels blender-5.0
 
 setup:           ## only install what the other commands need
 	@$(PYTHON) tools/bootstrap.py

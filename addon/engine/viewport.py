@@ -15,8 +15,8 @@ from ..export import denoising, studio_light, view
 from ..preferences import use_isa
 from ..properties import settings_of
 from ..report import ExportError, Report, message_of, show_warnings
-from ..sync.instances import Filter
 from ..sync.scene_sync import SceneSync
+from ..sync.shown import Filter
 from . import command_line
 from .denoise import warn_noisy
 from .machine import check_memory, thread_count

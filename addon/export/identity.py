@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 import bpy
@@ -13,8 +14,13 @@ def random_number(b_instance: bpy.types.DepsgraphObjectInstance) -> float:
     if b_instance.is_instance:
         return b_instance.random_id % 2**32 / 0xFFFFFFFF
     b_object: Any = b_instance.object
+    return _random_of_name(b_object.name)
+
+
+@functools.lru_cache(1 << 16)
+def _random_of_name(name: str) -> float:
     hashed = 0
-    for byte in b_object.name.encode():
+    for byte in name.encode():
         hashed = (hashed * 37 + byte) % 2**32
     return _mixed(hashed, 0) / 0xFFFFFFFF
 

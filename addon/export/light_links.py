@@ -24,6 +24,9 @@ class _Linking:
     # The sets that a light's collection lets in, by the collection's number; None: all.
     chosen: dict[int, list[int] | None] = field(default_factory=dict)
 
+    def __bool__(self) -> bool:
+        return bool(self.set_of or self.chosen)
+
 
 @dataclass
 class LightLinks:
@@ -32,15 +35,29 @@ class LightLinks:
     _receivers: _Linking = field(default_factory=_Linking)
     _blockers: _Linking = field(default_factory=_Linking)
 
-    def apply(self, converted: Any, b_object: Any, b_parent: Any = None) -> None:
-        """Tell an instance or a lamp of the core about the links of an object that `b_parent` may have placed."""
+    def apply(self, converted: Any, b_object: Any) -> None:
+        """Tell a lamp of the core about the links of an object."""
+        lit, blockers = self._lit_by(b_object)
+        converted.lit_sets = None if lit is None else list(lit)
+        converted.blocker_sets = None if blockers is None else list(blockers)
+
+    def of_instance(self, b_object: Any, b_parent: Any) -> dict[str, Any]:
+        """Those of an object that `b_parent` may have placed, by the core's names; none where nothing is linked."""
+        if not (self._receivers or self._blockers):
+            return {}
+        lit, blockers = self._lit_by(b_object)
+        return {
+            "lit_sets": lit,
+            "blocker_sets": blockers,
+            "receiver_set": _set_of(self._receivers, b_object, b_parent),
+            "blocker_set": _set_of(self._blockers, b_object, b_parent),
+        }
+
+    def _lit_by(self, b_object: Any) -> tuple[Any, Any]:
+        """The sets that an object lights and those that dim it."""
         b_links = b_object.original.light_linking
-        converted.lit_sets = _chosen(self._receivers, b_links.receiver_collection)
-        converted.blocker_sets = _chosen(self._blockers, b_links.blocker_collection)
-        if b_object.type == "LIGHT":
-            return
-        converted.receiver_set = _set_of(self._receivers, b_object, b_parent)
-        converted.blocker_set = _set_of(self._blockers, b_object, b_parent)
+        lit = _chosen(self._receivers, b_links.receiver_collection)
+        return lit, _chosen(self._blockers, b_links.blocker_collection)
 
 
 def read(b_scene: Any, report: Report) -> LightLinks:
@@ -114,8 +131,9 @@ def _inner_objects(b_collection: Any) -> Iterator[Any]:
     yield from b_collection.objects
 
 
-def _chosen(linking: _Linking, b_collection: Any) -> list[int] | None:
-    return None if b_collection is None else linking.chosen.get(uid(b_collection))
+def _chosen(linking: _Linking, b_collection: Any) -> tuple[int, ...] | None:
+    sets = None if b_collection is None else linking.chosen.get(uid(b_collection))
+    return None if sets is None else tuple(sets)
 
 
 def _set_of(linking: _Linking, b_object: Any, b_parent: Any) -> int:

@@ -42,9 +42,9 @@ def key_of(b_instance: bpy.types.DepsgraphObjectInstance) -> Key:
     return uid(b_object), uid(b_parent), tuple(b_instance.persistent_id)
 
 
-def hair_key(b_instance: bpy.types.DepsgraphObjectInstance, system: int) -> Key:
-    """Of the hair of an object's particle system. Blender's own numbers are not negative."""
-    number, parent, place = key_of(b_instance)
+def hair_key(own: Key, system: int) -> Key:
+    """Of the hair of a particle system of the placed object that has a key. Blender's own numbers are not negative."""
+    number, parent, place = own
     return number, parent, (*place, -1 - system)
 
 

@@ -19,8 +19,10 @@ from ..nodes import Surroundings, Textures
 from ..report import ExportError, Report
 from .adjacent_frames import AdjacentFrames
 from .changes import Changes, history
-from .instances import Filter, Instances
+from .instances import Instances
+from .layer import layer_collections
 from .motion import FrameSet, MotionExport, Movement, set_frame
+from .shown import Filter
 
 
 @dataclass
@@ -241,8 +243,5 @@ def _layout(depsgraph: bpy.types.Depsgraph) -> Iterator[Any]:
     override = b_view_layer.material_override
     yield uid(override) if override else 0
     yield light_groups.numbers(b_view_layer)
-    waiting = [b_view_layer.layer_collection]
-    while waiting:
-        b_layer = waiting.pop()
+    for b_layer in layer_collections(b_view_layer):
         yield b_layer.name, b_layer.holdout, b_layer.indirect_only
-        waiting.extend(b_layer.children)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 import time
 from collections.abc import Callable, Iterator
@@ -14,6 +15,7 @@ import pytest
 from addon.export import camera
 from addon.report import Report
 from addon.sync import changes
+from addon.sync.models import Models
 from addon.sync.scene_sync import SceneSync
 
 import basicrt
@@ -138,6 +140,34 @@ def test_nodes_of_a_lamp_touch_no_instance(
     expect_up_to_date(live)
     assert not np.array_equal(after, live.picture())
     assert len(live.sync.exported.scene.materials) == count
+
+
+def test_moving_an_instancer_places_its_instances_alone(
+    live: LiveScene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    collection = bpy.data.collections.new("Group")
+    collection.objects.link(bpy.data.objects["Cube"])
+    for name, x in (("Left", -2), ("Right", 2)):
+        made = bpy.data.objects.new(name, None)
+        made.instance_type, made.instance_collection = "COLLECTION", collection
+        made.location = (x, 2, 1)
+        bpy.context.scene.collection.objects.link(made)
+    expect_up_to_date(live)
+    placing, placed = Models.place, []
+
+    def place_one(self: Models, b_instance: Any, *owners: Any) -> Any:
+        placement = placing(self, b_instance, *owners)
+        if placement is not None:
+            placed.append((b_instance.parent or b_instance.object).name)
+        return placement
+
+    bpy.data.objects["Left"].location.z = 2
+    bpy.context.view_layer.update()
+    with monkeypatch.context() as patch:
+        patch.setattr(Models, "place", place_one)
+        live.update()
+    assert placed == ["Left"]
+    expect_up_to_date(live)
 
 
 def test_a_material_is_converted_alone(live: LiveScene, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -331,7 +361,11 @@ EDITS: tuple[Callable[[random.Random], None], ...] = (
 )
 
 
-@pytest.mark.parametrize("seed", range(20))
+# `make nightly` tries more.
+SEQUENCES = int(os.environ.get("BASICRT_EDIT_SEQUENCES", "20"))
+
+
+@pytest.mark.parametrize("seed", range(SEQUENCES))
 def test_random_edits_give_the_picture_of_a_fresh_export(live: LiveScene, seed: int) -> None:
     chance = random.Random(seed)
     for step in range(12):
