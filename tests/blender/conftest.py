@@ -6,6 +6,7 @@ import importlib.util
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -25,3 +26,15 @@ def registered_addon() -> Iterator[None]:
     addon.register()
     yield
     addon.unregister()
+
+
+@pytest.fixture
+def scene() -> Any:
+    """A plane under an even sky, 8 by 8 pixels."""
+    from support.blender import add_camera, add_plane, new_scene, set_world
+
+    made = new_scene(8, 8, 4)
+    add_plane()
+    set_world((0.5, 0.5, 0.5))
+    add_camera()
+    return made

@@ -14,25 +14,12 @@ from addon.report import ExportError
 
 import basicrt
 from support.blender import (
-    add_camera,
     add_lamp,
-    add_plane,
     export_in_render,
-    new_scene,
     render,
-    set_world,
 )
 
 BLENDER = ["blender", "-b", "scene.blend", "-E", "BASICRT", "-f", "1"]
-
-
-@pytest.fixture
-def scene() -> Any:
-    made = new_scene(8, 8, 4)
-    add_plane()
-    set_world((0.5, 0.5, 0.5))
-    add_camera()
-    return made
 
 
 def give(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> None:

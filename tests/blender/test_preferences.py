@@ -17,17 +17,8 @@ from addon.engine.machine import thread_count
 from addon.preferences import Preferences
 
 import basicrt
-from support.blender import add_camera, add_plane, new_scene, render, set_world
+from support.blender import render
 from support.scenes import still_life
-
-
-@pytest.fixture
-def scene() -> Any:
-    made = new_scene(8, 8, 4)
-    add_plane()
-    set_world((0.5, 0.5, 0.5))
-    add_camera()
-    return made
 
 
 @pytest.fixture

@@ -86,6 +86,7 @@ def edits() -> Iterator[str]:
     square.location.x = 0
     square.data.materials[0] = glowing("Blue", (0.0, 0.0, 1.0))
     yield "blue"
+    square.data.materials[0] = glowing("Yellow", (1.0, 1.0, 0.0))  # nothing like its normal
     space.shading.basicrt.render_pass = "Normal"
     yield "normal"
     space.shading.basicrt.render_pass = "Combined"
