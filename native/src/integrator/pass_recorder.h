@@ -67,9 +67,7 @@ class PassRecorder {
   }
   // The same of light that a path may have run into after so many scatterings, at least one.
   [[nodiscard]] std::uint32_t file_found(std::uint32_t sample, int scatterings, int light_group) {
-    if (!records_light_) return unfiled;
-    filings_.push_back({shares_[sample], scatterings == 1, light_group});
-    return static_cast<std::uint32_t>(filings_.size() - 1);
+    return file(sample, scatterings - 1, light_group, [&] { return shares_[sample]; });
   }
   void add_sampled_light(std::uint32_t sample, std::uint32_t filing, Color radiance);
   // Filings are of no use any more.
