@@ -293,6 +293,12 @@ def pass_name(name: str) -> str:
     return name if bpy.app.version >= (5, 0, 0) else _OLD_PASS_NAMES.get(name, name)
 
 
+def has_pass(name: str) -> bool:
+    """Whether this Blender's Cycles has a pass: 5.2 shows denoisers more of mirrors."""
+    is_new = name in ("Denoising Specular Albedo", "Denoising Roughness")
+    return bpy.app.version >= (5, 2, 0) or not is_new
+
+
 def has_background_vectors() -> bool:
     """Whether Cycles' pass Vector shows how what is behind everything moves as the camera turns."""
     return bpy.app.version >= (5, 2, 0)

@@ -50,6 +50,8 @@ _CYCLES_PASS_SWITCHES = {
     "Denoising Normal": "denoising_store_passes",
     "Denoising Albedo": "denoising_store_passes",
     "Denoising Depth": "denoising_store_passes",
+    "Denoising Specular Albedo": "denoising_store_passes",
+    "Denoising Roughness": "denoising_store_passes",
 }
 _MATTE_SWITCHES = {
     "CryptoObject": "use_pass_cryptomatte_object",
@@ -111,7 +113,8 @@ def _is_enabled(name: str, b_view_layer: Any) -> bool:
         return bool(getattr(b_view_layer, _PASS_SWITCHES[name]))
     if name in _CYCLES_PASS_SWITCHES:
         b_cycles = getattr(b_view_layer, "cycles", None)
-        return bool(getattr(b_cycles, _CYCLES_PASS_SWITCHES[name], False))
+        is_on = bool(getattr(b_cycles, _CYCLES_PASS_SWITCHES[name], False))
+        return is_on and compat.has_pass(name)
     layer, number = name[:-2], name[-2:]
     if layer in _MATTE_SWITCHES:  # two levels in each pass
         is_deep_enough = 2 * int(number) < b_view_layer.pass_cryptomatte_depth

@@ -138,12 +138,8 @@ def inside(both: Any) -> np.ndarray:
     return np.asarray(masks[0] & masks[1])
 
 
-# Of Blender 5.2's Cycles, for its denoisers; ours has none yet.
-NOT_OURS = {"Denoising Specular Albedo", "Denoising Roughness"}
-
-
 def test_the_passes_are_cycles(both: Any) -> None:
-    assert set(both[0]) == set(both[1]) - NOT_OURS
+    assert set(both[0]) == set(both[1])
     for name, ours in both[0].items():
         assert ours.shape == both[1][name].shape, name
 
@@ -212,6 +208,36 @@ def test_light_is_filed_as_in_cycles(
 def test_light_of_no_surface_is_filed_as_in_cycles(both: Any, name: str, share: float) -> None:
     ours, theirs = (picture[name].astype(float).mean(axis=(0, 1)) for picture in both)
     np.testing.assert_allclose(ours, theirs, rtol=share)
+
+
+def add_square(x: float, node: str, **values: Any) -> None:
+    """One of a row, as wide as eight pixels."""
+    corners = [(x, -2, 0), (x + 1, -2, 0), (x + 1, 2, 0), (x, 2, 0)]
+    add_mesh(corners, [(0, 1, 2, 3)], new_material(node, **values))
+
+
+@pytest.mark.skipif(bpy.app.version < (5, 2, 0), reason="Cycles has these passes from 5.2 on")
+def test_how_specular_surfaces_are_is_as_in_cycles(tmp_path: Path) -> None:
+    """Of a row of squares above a rough mirror, which shows through the last, a pane."""
+    scene = new_scene(64, 8, 16)
+    color = (0.8, 0.6, 0.4)
+    add_square(-4, "ShaderNodeBsdfDiffuse", Color=color)
+    for i, roughness in enumerate((0.0, 0.2, 0.3, 0.5)):
+        add_square(i - 3, "ShaderNodeBsdfAnisotropic", Color=color, Roughness=roughness)
+    add_square(1, "ShaderNodeBsdfPrincipled", Base_Color=color, Roughness=0.25, Coat_Weight=0.5)
+    add_square(2, "ShaderNodeEmission", Color=color)
+    add_square(3, "ShaderNodeBsdfTransparent", Color=color)
+    floor = new_material("ShaderNodeBsdfAnisotropic", Color=(0.9, 0.9, 0.9), Roughness=0.1)
+    add_plane(20, -1, floor)
+    add_camera(ortho_scale=8)
+    bpy.context.view_layer.cycles.denoising_store_passes = True
+    both = passes_of_both(scene, tmp_path)
+    for name, channels in (("Denoising Specular Albedo", 3), ("Denoising Roughness", 1)):
+        ours, theirs = (passes[name] for passes in both)
+        assert ours.shape == theirs.shape == (8, 64, channels)
+        middles = slice(4, None, 8)
+        np.testing.assert_allclose(ours[4, middles], theirs[4, middles], atol=0.01, err_msg=name)
+        assert np.ptp(theirs[4, middles]) > 0.5
 
 
 @only_in_one_version

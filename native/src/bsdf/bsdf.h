@@ -51,6 +51,12 @@ struct BsdfSample {
   Vec3f normal{};
 };
 
+// How much of a surface is like a mirror, as the denoisers of Blender 5.2 ask.
+struct Specularity {
+  Color albedo{0.0f};   // what its smooth lobes return; from an alpha of 0.15 on they are not smooth at all
+  float roughness = 0;  // the mean by what each lobe returns, the root of microfacets' alpha; all others count as 1
+};
+
 struct BsdfValue {
   Color value{0.0f};  // f * |cos|, without delta lobes
   float pdf = 0;      // that sample() gives wi, over solid angle
@@ -116,6 +122,8 @@ class Bsdf {
   [[nodiscard]] Color albedo_estimate() const { return albedo_; }
   // A better one, of what is scattered in one way: see pass_albedo.cpp.
   [[nodiscard]] Color albedo(Vec3f wo, ScatterKind kind) const;
+  // Of all but what passes straight through.
+  [[nodiscard]] Specularity specularity(Vec3f wo) const;
 
   // The mean of the lobes' normals on the surface's own side, or of those that scatter in one way; the smooth one where
   // there are none. See pass_surface.cpp for this and the next.

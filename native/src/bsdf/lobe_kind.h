@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// In which way a lobe scatters, for those that only do so in one.
+// In which way a lobe scatters, for those that only do so in one, and how rough its facets are.
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <type_traits>
 
+#include "base/overloaded.h"
 #include "bsdf/lobes.h"
 
 namespace basicrt {
@@ -22,6 +25,20 @@ constexpr ScatterKind reflection_kind_of(const AnyLobe& /*lobe*/) {
     return AnyLobe::reflection_kind;
   else
     return ScatterKind::glossy;
+}
+
+// The alpha of a lobe of microfacets, 0 for a mirror; nothing where there are none.
+inline std::optional<float> facet_alpha(const Lobe& any) {
+  using Alpha = std::optional<float>;
+  return std::visit(
+      Overloaded{[](const Dielectric& lobe) { return Alpha(lobe.alpha); },
+                 [](const FilmDielectric& lobe) { return Alpha(lobe.alpha); },
+                 []<class Fresnel>(const MicrofacetReflection<Fresnel>& lobe) {
+                   return Alpha(std::sqrt(lobe.microfacets.alpha_x * lobe.microfacets.alpha_y));
+                 },
+                 [](const AshikhminShirley& lobe) { return Alpha(std::sqrt(lobe.alpha_x * lobe.alpha_y)); },
+                 [](const auto&) { return Alpha(); }},
+      any);
 }
 
 }  // namespace basicrt

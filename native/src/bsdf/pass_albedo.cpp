@@ -52,24 +52,51 @@ Color albedo_of(AnyDielectric lobe, float cos_theta, ScatterKind kind) {
   return smooth / glass_multiple_scattering(std::sqrt(lobe.alpha), lobe.eta, cos_theta, Color(1.0f));
 }
 
+// What a lobe scatters in one of these ways.
+Color albedo_of(const Lobe& any, float cos_theta, ScatterKind kind) {
+  return std::visit(
+      [&]<class AnyLobe>(const AnyLobe& lobe) {
+        if constexpr (is_two_sided<AnyLobe>) {
+          const bool is_part = kind == ScatterKind::glossy || kind == ScatterKind::transmission;
+          return is_part ? albedo_of(lobe, cos_theta, kind) : Color(0.0f);
+        } else {
+          return reflection_kind_of(lobe) == kind ? albedo_of(lobe, cos_theta) : Color(0.0f);
+        }
+      },
+      any);
+}
+
+float smooth_step(float edge, float x) {
+  const float t = std::clamp(x / edge, 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
 }  // namespace
 
 Color Bsdf::albedo(Vec3f wo, ScatterKind kind) const {
   Color sum(0.0f);
   for (const WeightedLobe& weighted : lobes_.used()) {
     const float cos_theta = std::clamp(find_side(frame_of(weighted), wo).wo.z, 1e-3f, 1.0f);
-    sum += weighted.weight * std::visit(
-                                 [&]<class AnyLobe>(const AnyLobe& lobe) {
-                                   if constexpr (is_two_sided<AnyLobe>) {
-                                     const bool is_part =
-                                         kind == ScatterKind::glossy || kind == ScatterKind::transmission;
-                                     return is_part ? albedo_of(lobe, cos_theta, kind) : Color(0.0f);
-                                   } else {
-                                     return reflection_kind_of(lobe) == kind ? albedo_of(lobe, cos_theta) : Color(0.0f);
-                                   }
-                                 },
-                                 weighted.lobe);
+    sum += weighted.weight * albedo_of(weighted.lobe, cos_theta, kind);
   }
+  return sum;
+}
+
+Specularity Bsdf::specularity(Vec3f wo) const {
+  constexpr float least_rough_alpha = 0.15f;  // Cycles'
+  Specularity sum;
+  float weights = 0;
+  for (const WeightedLobe& weighted : lobes_.used()) {
+    const float cos_theta = std::clamp(find_side(frame_of(weighted), wo).wo.z, 1e-3f, 1.0f);
+    Color albedo(0.0f);
+    for (const ScatterKind kind : {ScatterKind::diffuse, ScatterKind::glossy, ScatterKind::transmission})
+      albedo += weighted.weight * albedo_of(weighted.lobe, cos_theta, kind);
+    const float alpha = facet_alpha(weighted.lobe).value_or(1);
+    sum.albedo += albedo * (1 - smooth_step(least_rough_alpha, alpha));
+    sum.roughness += std::sqrt(alpha) * average(albedo);
+    weights += average(albedo);
+  }
+  if (weights > 0) sum.roughness /= weights;
   return sum;
 }
 

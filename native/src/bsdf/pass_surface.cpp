@@ -2,7 +2,6 @@
 // What passes tell of a surface that is made of several lobes: one normal, one roughness.
 #include <cmath>
 
-#include "base/overloaded.h"
 #include "bsdf/bsdf.h"
 #include "bsdf/lobe_kind.h"
 
@@ -21,16 +20,9 @@ namespace {
 
 // Of one lobe; negative where it has none.
 float roughness_of(const Lobe& any) {
-  return std::visit(
-      Overloaded{[](const Dielectric& lobe) { return std::sqrt(lobe.alpha); },
-                 [](const FilmDielectric& lobe) { return std::sqrt(lobe.alpha); },
-                 [](const OrenNayar& lobe) { return lobe.roughness(); },
-                 []<class Fresnel>(const MicrofacetReflection<Fresnel>& lobe) {
-                   return std::sqrt(std::sqrt(lobe.microfacets.alpha_x * lobe.microfacets.alpha_y));
-                 },
-                 [](const AshikhminShirley& lobe) { return std::sqrt(std::sqrt(lobe.alpha_x * lobe.alpha_y)); },
-                 [](const auto&) { return -1.0f; }},
-      any);
+  if (const auto* lobe = std::get_if<OrenNayar>(&any)) return lobe->roughness();
+  const std::optional<float> alpha = facet_alpha(any);
+  return alpha ? std::sqrt(*alpha) : -1;
 }
 
 }  // namespace

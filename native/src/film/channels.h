@@ -42,6 +42,8 @@ enum class Pass : std::uint8_t {
   denoising_normal,
   denoising_albedo,
   denoising_depth,
+  denoising_specular_albedo,
+  denoising_roughness,
   // The first of eight each, two ids with their coverages in every one.
   crypto_object,
   crypto_material = crypto_object + 8,
@@ -132,6 +134,8 @@ inline constexpr std::array passes = {
     PassInfo{Pass::denoising_normal, "Denoising Normal", "XYZ"},
     PassInfo{Pass::denoising_albedo, "Denoising Albedo", "RGB"},
     PassInfo{Pass::denoising_depth, "Denoising Depth", "Z"},
+    PassInfo{Pass::denoising_specular_albedo, "Denoising Specular Albedo", "RGB"},
+    PassInfo{Pass::denoising_roughness, "Denoising Roughness", "X"},
     detail::matte(Pass::crypto_object, 0, "CryptoObject00"),
     detail::matte(Pass::crypto_object, 1, "CryptoObject01"),
     detail::matte(Pass::crypto_object, 2, "CryptoObject02"),

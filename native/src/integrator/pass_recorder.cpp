@@ -158,6 +158,11 @@ void PassRecorder::record_seen(std::uint32_t sample, Vec3f wo, const SurfacePoin
        {std::pair(Pass::diffuse_color, ScatterKind::diffuse), std::pair(Pass::glossy_color, ScatterKind::glossy),
         std::pair(Pass::transmission_color, ScatterKind::transmission)})
     if (values_.has(pass)) values_.add(sample, pass, throughput * bsdf.albedo(wo, kind));
+  if (values_.has(Pass::denoising_specular_albedo) || values_.has(Pass::denoising_roughness)) {
+    const Specularity specularity = bsdf.specularity(wo);
+    values_.add(sample, Pass::denoising_specular_albedo, throughput * specularity.albedo);
+    values_.add(sample, Pass::denoising_roughness, average(throughput) * specularity.roughness);
+  }
   if (!has_mattes_ && !values_.has(Pass::mist)) return;
   const float coverage = average(throughput * (Color(1.0f) - bsdf.albedo(wo, ScatterKind::transparent)));
   if (values_.has(Pass::mist)) {

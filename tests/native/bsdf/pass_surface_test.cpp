@@ -45,5 +45,38 @@ TEST(MeanRoughness, is_that_of_the_nodes) {
   EXPECT_NEAR(roughness(half), 0.3f, 2e-3f);  // the rougher one counts a little more: it is to keep its light
 }
 
+TEST(Specularity, is_all_of_a_mirror_and_nothing_of_what_is_rough) {
+  const Vec3f wo = direction_at(20);
+  const auto of = [&](const Material& material) { return make_bsdf(material, make_point(), wo).specularity(wo); };
+  const Specularity mirror = of(make_material(GlossyShader{.color = Color(0.5f), .roughness = 0}));
+  EXPECT_EQ(mirror.albedo, Color(0.5f));
+  EXPECT_EQ(mirror.roughness, 0);
+  const Specularity rough = of(make_material(GlossyShader{.color = Color(0.5f), .roughness = 0.4f}));
+  EXPECT_EQ(rough.albedo, Color(0.0f));  // an alpha of 0.16
+  EXPECT_NEAR(rough.roughness, 0.4f, 1e-6f);
+  const Specularity diffuse = of(make_material(DiffuseShader{}));
+  EXPECT_EQ(diffuse.albedo, Color(0.0f));
+  EXPECT_EQ(diffuse.roughness, 1);
+}
+
+TEST(Specularity, fades_with_a_smooth_step_of_alpha) {
+  const Vec3f wo = direction_at(20);
+  const Bsdf bsdf = make_bsdf(make_material(GlossyShader{.color = Color(0.5f), .roughness = 0.3f}), make_point(), wo);
+  const float t = 0.09f / 0.15f, share = 1 - t * t * (3 - 2 * t);
+  EXPECT_NEAR(bsdf.specularity(wo).albedo.x, share * bsdf.albedo(wo, ScatterKind::glossy).x, 1e-6f);
+}
+
+TEST(Specularity, is_the_mean_of_lobes_by_what_they_return_but_for_the_transparent) {
+  const Vec3f wo = direction_at(20);
+  const GlossyShader mirror{.color = Color(0.6f), .roughness = 0};
+  const Specularity half =
+      make_bsdf(make_mix(0.5f, DiffuseShader{Color(0.2f)}, mirror), make_point(), wo).specularity(wo);
+  EXPECT_NEAR(half.roughness, 0.25f, 1e-6f);
+  EXPECT_NEAR(half.albedo.x, 0.3f, 1e-6f);
+  const Specularity pane = make_bsdf(make_mix(0.5f, TransparentShader{}, mirror), make_point(), wo).specularity(wo);
+  EXPECT_EQ(pane.roughness, 0);
+  EXPECT_NEAR(pane.albedo.x, 0.3f, 1e-6f);
+}
+
 }  // namespace
 }  // namespace basicrt::test
