@@ -134,15 +134,42 @@ def read_report(path: Path, succeeded: bool) -> Counts:
     return counts
 
 
+def worker_count() -> int:
+    """How many processes tests are shared out to: renders of tests have two threads, but Blender itself one."""
+    processors = os.cpu_count() or 1
+    return max(min(processors, 2), processors // 2)
+
+
+def files_with(mark: str, folders: Sequence[str]) -> list[str]:
+    """Test files in which some test has a mark."""
+    files = [path for name in folders for path in sorted((ROOT / name).rglob("test_*.py"))]
+    found = [path for path in files if f"mark.{mark}" in path.read_text(encoding="utf-8")]
+    return [str(path.relative_to(ROOT)) for path in found]
+
+
 def pytest(context: Context, python: Path, folders: Sequence[str], *options: str) -> Counts:
     """Run pytest over those of the folders that exist."""
     present = [name for name in folders if any((ROOT / name).rglob("test_*.py"))]
     if not present:
         return skipped(f"no tests in {', '.join(folders)}")
-    report = context.report_file()
+    return run_pytest(context, context.report_file(), python, *options, *present)
+
+
+def shared_pytest(context: Context, python: Path, folders: Sequence[str], *options: str) -> Counts:
+    """The same in several processes, and then those tests that measure time in one."""
+    sharing = ["-n", str(worker_count()), "--dist", "worksteal", "-m", "not alone"]
+    counts = pytest(context, python, folders, *sharing, *options)
+    if measuring := files_with("alone", folders):
+        report = context.report_file("-alone")
+        counts.add(run_pytest(context, report, python, "-m", "alone", *options, *measuring))
+    return counts
+
+
+def run_pytest(context: Context, report: Path, python: Path, *arguments: str) -> Counts:
+    """One run of pytest."""
     environment = {"BASICRT_BUILD_DIR": str(ROOT / "build"), "PYTHONFAULTHANDLER": "1"}
-    command: Command = [python, "-m", "pytest", "-q", "--junitxml", report, *options, *present]
-    return read_report(report, context.execute(command, environment))
+    command: Command = [python, "-m", "pytest", "-q", "--durations=30", "--junitxml", report]
+    return read_report(report, context.execute([*command, *arguments], environment))
 
 
 def build_and_test(context: Context, preset: str, build: Path, prefix: Command = ()) -> Counts:
@@ -215,7 +242,7 @@ def run_stubs(context: Context) -> Counts:
 
 def run_python(context: Context) -> Counts:
     """The wheel without Blender: unit tests and golden images."""
-    return pytest(context, install_wheel("test"), ["tests/python", "tests/golden"])
+    return shared_pytest(context, install_wheel("test"), ["tests/python", "tests/golden"])
 
 
 def foreign_roots() -> list[Path]:
@@ -264,7 +291,7 @@ def blender_stage(version: str) -> Stage:
                 f"Blender {version} needs Python {bootstrap.BLENDERS[version]}, which is not here"
             )
         os.environ.update(extension_zip())
-        return pytest(
+        return shared_pytest(
             context,
             install_wheel(f"bpy-{version}"),
             ["tests/blender"],

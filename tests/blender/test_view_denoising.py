@@ -368,6 +368,7 @@ def test_a_view_that_turns_shows_the_noisy_picture_of_what_is_seen(
     assert kinds == sorted(kinds)
 
 
+@pytest.mark.alone
 def test_blender_waits_for_no_denoiser(shown: Callable[..., Shown]) -> None:
     """Callbacks go on, and quickly, while the library works."""
     pytest.importorskip("pyoidn")

@@ -181,6 +181,7 @@ def test_waiting_without_a_tile_yields_none() -> None:
         assert next(session.tiles(poll_seconds=0)) is None
 
 
+@pytest.mark.alone
 def test_stop_takes_effect_at_once() -> None:
     with Session(endless((1024, 1024))) as session:
         time.sleep(0.2)
@@ -195,6 +196,7 @@ def test_stop_takes_effect_at_once() -> None:
     assert seconds < STOP_SECONDS
 
 
+@pytest.mark.alone
 def test_another_thread_can_stop_a_waiting_one() -> None:
     session = Session(endless())
     stopped_at = 0.0
@@ -276,6 +278,7 @@ def longest_pause(work) -> tuple[float, float]:
     return end - begin, max(np.diff(ticks))
 
 
+@pytest.mark.alone
 def test_python_threads_run_while_native_ones_render() -> None:
     scene = still_life(size=(96, 64), samples=256)
     seconds, pause = longest_pause(lambda: basicrt.render(scene, tile_size=4096))
@@ -283,6 +286,7 @@ def test_python_threads_run_while_native_ones_render() -> None:
     assert pause < max(0.5 * seconds, 0.1)
 
 
+@pytest.mark.alone
 def test_python_threads_run_while_a_scene_is_prepared() -> None:
     scene = basicrt.Scene()
     add(scene, bumpy(700), basicrt.DiffuseShader())
@@ -307,6 +311,7 @@ def test_preparing_tells_how_far_it_is_and_the_tree_has_a_size() -> None:
     assert 0 <= fractions[0] <= fractions[-1] <= 1
 
 
+@pytest.mark.alone
 def test_what_preparing_raises_ends_it_soon() -> None:
     class EnoughError(Exception):
         pass

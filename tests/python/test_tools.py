@@ -65,6 +65,10 @@ def test_reports_are_counted(
     assert (found.passed, found.failed, found.skipped) == counts
 
 
+def test_files_whose_tests_measure_time_are_found() -> None:
+    assert stages.files_with("alone", ["tests/python"]) == ["tests/python/test_session.py"]
+
+
 def test_repacked_wheel_holds_the_other_module_and_its_tags(tmp_path: Path) -> None:
     info = f"basicrt-{build_wheel.version()}.dist-info"
     donor = tmp_path / f"basicrt-{build_wheel.version()}-cp311-cp311-linux_x86_64.whl"
