@@ -20,25 +20,30 @@ const std::vector<float> angles = {0, 30, 75, 110, 160};
 
 std::string at(const NamedMaterial& named, float degrees) { return named.name + " from " + std::to_string(degrees); }
 
-TEST(Lobes, samples_have_the_density_that_eval_gives) {
+// One test for each angle, which can run side by side.
+class LobeDensity : public testing::TestWithParam<float> {};
+
+TEST_P(LobeDensity, samples_have_the_density_that_eval_gives) {
   const auto materials = test::all_materials();
   const double threshold = test::sidak_threshold(static_cast<int>(materials.size() * angles.size()));
   const Frame frame = make_frame(normalize(Vec3f{0.3f, -0.5f, 0.4f}));
-  for (const NamedMaterial& named : materials)
-    for (const float degrees : angles) {
-      const Vec3f wo = frame.to_world(direction_at(degrees));
-      const Bsdf bsdf = test::make_bsdf(named.material, test::make_point(frame.normal), wo);
-      if (bsdf.has_only_deltas()) continue;
-      const auto result = test::chi_square_sphere(
-          [&](Rng& rng) -> std::optional<Vec3f> {
-            const float choice = test::next_unit_float(rng);
-            const auto sample = bsdf.sample(wo, choice, test::next_unit_vec2(rng));
-            return sample && !sample->is_delta ? std::optional(sample->wi) : std::nullopt;
-          },
-          [&](Vec3f wi) { return bsdf.eval(wo, wi).pdf; }, {.samples = 100000, .pilot_samples = 20000});
-      EXPECT_GT(result.p_value, threshold) << at(named, degrees) << ": " << result.describe();
-    }
+  const float degrees = GetParam();
+  const Vec3f wo = frame.to_world(direction_at(degrees));
+  for (const NamedMaterial& named : materials) {
+    const Bsdf bsdf = test::make_bsdf(named.material, test::make_point(frame.normal), wo);
+    if (bsdf.has_only_deltas()) continue;
+    const auto result = test::chi_square_sphere(
+        [&](Rng& rng) -> std::optional<Vec3f> {
+          const float choice = test::next_unit_float(rng);
+          const auto sample = bsdf.sample(wo, choice, test::next_unit_vec2(rng));
+          return sample && !sample->is_delta ? std::optional(sample->wi) : std::nullopt;
+        },
+        [&](Vec3f wi) { return bsdf.eval(wo, wi).pdf; }, {.samples = 100000, .pilot_samples = 20000});
+    EXPECT_GT(result.p_value, threshold) << at(named, degrees) << ": " << result.describe();
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(Angles, LobeDensity, testing::ValuesIn(angles));
 
 TEST(Lobes, sample_weights_are_value_over_density) {
   Rng rng(2);

@@ -19,6 +19,7 @@
 #include "bvh/tree_access.h"
 #include "geometry/kernels/chosen_point_kernel.h"
 #include "geometry/surface_point.h"
+#include "support/effort.h"
 
 namespace basicrt {
 namespace {
@@ -99,16 +100,10 @@ std::vector<Ray> rays_along_axes(test::Random& rng, Vec3f center, std::uint32_t 
   return rays;
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int seconds_worth_of_rays = 50000, rays_at_a_time = 300;
-#else
-constexpr int seconds_worth_of_rays = 500000, rays_at_a_time = 3000;
-#endif
-
 // How many rays each kernel is given below: BASICRT_LEAK_RAYS, or as many as take about a second.
 int leak_ray_count() {
   const char* count = std::getenv("BASICRT_LEAK_RAYS");
-  return count == nullptr ? seconds_worth_of_rays : std::atoi(count);
+  return count == nullptr ? test::tries(500000) : std::atoi(count);
 }
 
 class EveryKernel : public testing::TestWithParam<const char*> {
@@ -211,20 +206,20 @@ std::vector<Ray> rays_at_moving_borders(test::Random& rng, const Mesh& mesh, flo
 TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_that_deforms) {
   test::Random rng(6);
   const Mesh mesh = deforming_sphere({3, -100, 1e4f});
-  for (int i = 0; i < 20; ++i)
-    expect_no_leak(mesh, rays_at_moving_borders(rng, mesh, test::random_time(rng), rays_at_a_time), test::place(0, {}),
+  for (int i = 0; i < test::tries(20); ++i)
+    expect_no_leak(mesh, rays_at_moving_borders(rng, mesh, test::random_time(rng), 3000), test::place(0, {}),
                    "time " + std::to_string(i));
 }
 
 TEST_P(EveryKernel, no_ray_leaves_a_closed_mesh_that_deforms_and_moves) {
   test::Random rng(7);
   const Mesh mesh = deforming_sphere({0.5f, -2});
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < test::tries(20); ++i) {
     const float time = test::random_time(rng);
     const std::vector<TransformD> keys{test::random_transform(rng), test::random_transform(rng)};
     const TransformD transform = transform_at(keys, time);
     if (std::abs(transform.determinant()) < 0.05) continue;  // all but flat: the origin may be rounded out of it
-    std::vector<Ray> rays = rays_at_moving_borders(rng, mesh, time, rays_at_a_time);
+    std::vector<Ray> rays = rays_at_moving_borders(rng, mesh, time, 3000);
     for (Ray& ray : rays) {
       ray.origin = Vec3f(transform.point(Vec3d(ray.origin)));
       ray.direction = Vec3f(transform.vector(Vec3d(ray.direction)));

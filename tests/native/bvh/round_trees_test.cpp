@@ -6,10 +6,12 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "bvh/curve_reference.h"
 #include "bvh/test_scenes.h"
 #include "geometry/surface_point.h"
+#include "support/effort.h"
 
 namespace basicrt {
 namespace {
@@ -78,19 +80,26 @@ Comparison compare(const Curves& curves, test::Random& rng, int rays) {
   return result;
 }
 
-TEST(CurveTree, agrees_with_trying_all_places_on_round_curves) {
-  for (const auto& [step, radius] : {std::pair{0.15f, 0.03f}, {0.3f, 0.01f}, {0.05f, 0.04f}}) {
-    test::Random rng(1);
-    const Comparison result = compare(random_curves(rng, 30, step, radius, CurveForm::round), rng, 3000);
-    EXPECT_GT(result.hits, 60) << step;
-    EXPECT_LE(result.unlike, 1) << step << " " << radius << ": of " << result.hits;  // that meets a bend twice
-  }
+// One test for each step and radius, which can run side by side.
+class RoundCurves : public testing::TestWithParam<std::pair<float, float>> {};
+
+TEST_P(RoundCurves, agree_with_trying_all_places) {
+  const auto [step, radius] = GetParam();
+  test::Random rng(1);
+  const int rays = test::tries(3000);
+  const Comparison result = compare(random_curves(rng, 30, step, radius, CurveForm::round), rng, rays);
+  EXPECT_GT(result.hits, rays / 50);
+  EXPECT_LE(result.unlike, 1) << "of " << result.hits;  // that meets a bend twice
 }
+
+INSTANTIATE_TEST_SUITE_P(CurveTree, RoundCurves,
+                         testing::Values(std::pair{0.15f, 0.03f}, std::pair{0.3f, 0.01f}, std::pair{0.05f, 0.04f}));
 
 TEST(CurveTree, agrees_with_trying_all_places_on_ribbons) {
   test::Random rng(2);
-  const Comparison result = compare(random_curves(rng, 30, 0.2f, 0.03f, CurveForm::ribbon), rng, 3000);
-  EXPECT_GT(result.hits, 100);
+  const int rays = test::tries(3000);
+  const Comparison result = compare(random_curves(rng, 30, 0.2f, 0.03f, CurveForm::ribbon), rng, rays);
+  EXPECT_GT(result.hits, rays / 30);
   EXPECT_EQ(result.unlike, 0) << result.hits;
 }
 
