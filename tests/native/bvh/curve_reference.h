@@ -41,6 +41,17 @@ class ReferenceCurve {
   [[nodiscard]] std::uint32_t first() const { return first_; }
   [[nodiscard]] std::uint32_t segments() const { return end_ - first_ - 1; }
 
+  // Whether the ray passes by a sphere around all of it: a spline's weights add up to 1, their magnitudes to 1.25 at most.
+  [[nodiscard]] bool is_far() const {
+    const Vec3d center(curves_.points[first_]);
+    double reach = 0, thickest = 0;
+    for (std::uint32_t i = first_; i < end_; ++i) {
+      reach = std::max(reach, length(Vec3d(curves_.points[i]) - center));
+      thickest = std::max(thickest, double{curves_.radii[i]});
+    }
+    return length(cross(center - ray_.origin, ray_.direction)) > 1.3 * (reach + thickest) * length(ray_.direction);
+  }
+
   // Where the ray enters the sphere around the curve at s (round), or how far the curve is from it (ribbon); infinite where it passes by.
   [[nodiscard]] double value(double s) const { return curves_.form == CurveForm::round ? entry(s) : distance(s); }
   [[nodiscard]] double entry(double s) const {
@@ -82,7 +93,7 @@ inline std::optional<CurveReferenceHit> reference_hit(const Curves& curves, cons
   std::optional<CurveReferenceHit> nearest;
   for (std::uint32_t number = 0; number < curves.firsts.size(); ++number) {
     const ReferenceCurve curve(curves, number, ray);
-    if (curves.end_of(number) - curves.firsts[number] < 2) continue;
+    if (curves.end_of(number) - curves.firsts[number] < 2 || curve.is_far()) continue;
     const int last = places * static_cast<int>(curve.segments());
     const auto s = [&](int i) { return static_cast<double>(i) / places; };
     const auto consider = [&](double at) {
