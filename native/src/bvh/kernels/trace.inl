@@ -41,6 +41,8 @@ template <class Query>
 void trace(const KernelScene& scene, const char* rays, std::size_t count, Query query, Scratch& scratch) {
   const Steps<Query> steps{scene, rays, query};
   if (count < smallest_stream) return trace_each_alone(steps, count, scratch.stream);
+  // Where most packets are given up, the rest of the call's rays are not tried.
+  unsigned packet_count = 0, given_up_count = 0;
   constexpr std::size_t chunk_size = 4096;
   std::uint32_t alone[chunk_size];
   for (std::size_t first = 0; first < count; first += chunk_size) {
@@ -49,7 +51,9 @@ void trace(const KernelScene& scene, const char* rays, std::size_t count, Query 
     for (std::size_t i = first; i < end; i += packet_size) {
       const std::size_t size = end - i < packet_size ? end - i : packet_size;
       const char* packet_rays = rays + sizeof(KernelRay) * i;
-      if (size == packet_size && scene.root != no_reference && go_together(packet_rays)) {
+      if (size == packet_size && scene.root != no_reference && given_up_count <= 2 + packet_count / 2 &&
+          go_together(packet_rays)) {
+        ++packet_count;
         PacketWalk walk(scene, scratch.packet, packet_rays, Query::ends_at_hit);
         if (walk.run()) {
           walk.store();
@@ -59,6 +63,7 @@ void trace(const KernelScene& scene, const char* rays, std::size_t count, Query 
             alone[alone_count++] = static_cast<std::uint32_t>(i + static_cast<unsigned>(__builtin_ctz(rest)));
           continue;
         }
+        ++given_up_count;
       }
       for (std::size_t j = 0; j < size; ++j) alone[alone_count++] = static_cast<std::uint32_t>(i + j);
     }
