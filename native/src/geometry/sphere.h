@@ -50,7 +50,8 @@ inline Sphere sphere_of(const PointCloud& cloud, std::uint32_t point) {
 // Longitude and latitude in [0, 1] of a unit direction from the centre, poles on z.
 inline Vec2d sphere_uv(Vec3d direction) {
   const double longitude = std::atan2(direction.y, direction.x) / (2 * std::numbers::pi);
-  const double latitude = std::atan2(direction.z, std::sqrt(direction.x * direction.x + direction.y * direction.y)) / std::numbers::pi;
+  const double latitude =
+      std::atan2(direction.z, std::sqrt(direction.x * direction.x + direction.y * direction.y)) / std::numbers::pi;
   return {longitude < 0 ? longitude + 1 : longitude, latitude + 0.5};
 }
 
