@@ -20,9 +20,11 @@ def encoding(b_image: bpy.types.Image) -> str | None:
     b_colorspace: Any = b_image.colorspace_settings
     if b_colorspace.is_data:
         return "linear"
-    if compat.works_in_rec709() and b_colorspace.name in _LINEAR_SPACES:
+    if not compat.works_in_rec709():
+        return None
+    if b_colorspace.name in _LINEAR_SPACES:
         return "linear"
-    return "srgb" if compat.works_in_rec709() and b_colorspace.name in _SRGB_SPACES else None
+    return "srgb" if b_colorspace.name in _SRGB_SPACES else None
 
 
 def decoded(

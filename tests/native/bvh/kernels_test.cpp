@@ -279,6 +279,17 @@ TEST_P(EveryKernel, leaves_out_the_triangle_that_a_ray_starts_on) {
   EXPECT_TRUE(hit[0].is_hit());
 }
 
+// Each ray must meet alone what it meets among the others.
+void expect_same_hits_alone(const Tracer& tracer, std::span<const Ray> rays, const std::string& name) {
+  std::vector<Hit> together(rays.size());
+  tracer.intersect(rays, together);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Hit alone;
+    tracer.intersect(rays.subspan(i, 1), std::span(&alone, 1));
+    EXPECT_TRUE(test::is_identical(alone, together[i])) << name << " ray " << i;
+  }
+}
+
 TEST_P(EveryKernel, gives_each_ray_the_same_answer_in_any_company) {
   test::Random rng(4);
   std::vector<Shape> shapes;
@@ -297,13 +308,7 @@ TEST_P(EveryKernel, gives_each_ray_the_same_answer_in_any_company) {
     rays.push_back(test::random_ray(rng));
     rays.back().time = test::random_time(rng);
   }
-  std::vector<Hit> together(rays.size());
-  tracer.intersect(rays, together);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    Hit alone;
-    tracer.intersect(std::span(&rays[i], 1), std::span(&alone, 1));
-    EXPECT_TRUE(test::is_identical(alone, together[i])) << i;
-  }
+  expect_same_hits_alone(tracer, rays, "");
 }
 
 // Neighbours that point the same way walk together; what they meet must not depend on it, whether they meet edges, instances or nothing.
@@ -376,13 +381,7 @@ TEST_P(EveryKernel, gives_neighbours_the_same_answer_as_each_alone_where_many_tr
     std::vector<Ray> rays;
     for (int i = 0; i < 64; ++i)
       rays.push_back({.origin = center, .direction = direction + test::random_point(rng) * 1e-3f});
-    std::vector<Hit> together(rays.size());
-    tracer.intersect(rays, together);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      Hit alone;
-      tracer.intersect(std::span(&rays[i], 1), std::span(&alone, 1));
-      ASSERT_TRUE(test::is_identical(alone, together[i])) << "picture " << picture << ", ray " << i;
-    }
+    expect_same_hits_alone(tracer, rays, "picture " + std::to_string(picture));
   }
 }
 

@@ -328,13 +328,13 @@ class PacketWalk {
     const KernelInstance& instance = scene_.instances[index];
     if (!(kinds_ & instance.visibility)) return true;
     if (instance.interval_count != 0) return false;  // deforms: left to the stream
-    // Entering costs as much as many nodes, and the same for few rays as for all.
-    if (4 * static_cast<unsigned>(__builtin_popcount(active)) < packet_size) return false;
     if (instance.root == no_reference) {
       for (unsigned ray = 0; ray < packet_size; ++ray)
         if (active >> ray & 1) intersect_precisely(index, ray);
       return true;
     }
+    // Entering costs as much as many nodes, and the same for few rays as for all.
+    if (4 * static_cast<unsigned>(__builtin_popcount(active)) < packet_size) return false;
     const PackVectors *origins = &scratch_.origin, *directions = &scratch_.direction;
     if (instance.space != KernelInstance::Space::world) {
       transform_all(instance);
